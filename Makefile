@@ -51,7 +51,7 @@ help:
 	@echo "make uninstall PREFIX=DIR [DESTDIR=]   remove what was installed there"
 	@echo "make docs    guides and references as one site with search, in $(BUILD)/docs/site; make reference: those of C and Rust alone"
 	@echo "make abi     renew the committed description of the ABI (tests/abi)"
-	@echo "make sizes   what each feature that can be left out adds to the library, a quarter of an hour (FIGURES=1: renew the table)"
+	@echo "make sizes   what each feature that can be left out adds to the library, half an hour (FIGURES=1: renew the table)"
 	@echo "make header  make include/stickslip.h again from src/capi"
 	@echo "make meshes  make the example meshes again with Gmsh"
 	@echo "make clean   remove $(BUILD)/ and target/"
@@ -229,7 +229,9 @@ check:
 
 # The library that is installed is compiled on one processor: the Rust tests use the other one, and the references what is left.
 # What cargo keeps to compile less after a change takes a seventh more of the first time: it does so where somebody has used cargo.
-test: export CARGO_INCREMENTAL := $(if $(wildcard target/debug/incremental/*),1,0)
+ifeq ($(wildcard target/debug/incremental/*),)
+test: export CARGO_INCREMENTAL := 0
+endif
 test:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory -j3 --output-sync=line TESTS=ON rust-tests cmake-build reference

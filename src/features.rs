@@ -1,9 +1,10 @@
 //! What can be left out of the library when it is built, for a smaller one: cargo's features of the same names, all in by default.
 //!
-//! All functions and structs of the C ABI are there whatever is built. What needs a feature asks [`Feature::check`] first, where
-//! the answer is a constant: behind a refusal nothing is compiled.
+//! All functions and structs of the C ABI are there whatever is built. What needs a feature asks `needs!` first: it compares with
+//! a constant, and behind its `return` nothing is compiled. A function that answers with a `Result` would not do: the compiler does not
+//! see that what a refusal is made of is never what `Ok` is told by, and keeps all that follows.
 
-use crate::error::{Error, Kind, Result};
+use crate::error::{Error, Kind};
 
 /// A part of the library that a build may lack.
 #[derive(Clone, Copy, Debug)]
@@ -35,24 +36,26 @@ pub const RIGID: Feature = Feature { name: "rigid", built: cfg!(feature = "rigid
 /// Facets of the host that have parts: quadratic ones and lines.
 pub const PARTS: Feature = Feature { name: "quadratic or lines", built: QUADRATIC.built || LINES.built };
 
-impl Feature {
-    /// Refuses what needs a feature that was left out.
-    ///
-    /// # Errors
-    /// [`Kind::Unsupported`].
-    #[inline(always)]
-    pub fn check(self) -> Result<()> {
-        if self.built { Ok(()) } else { Err(self.left_out()) }
-    }
+/// Refuses, in a function that gives a `Result`, what needs a feature that was left out.
+macro_rules! needs {
+    ($feature:ident) => {
+        if !crate::features::$feature.built {
+            return Err(crate::features::$feature.left_out());
+        }
+    };
+}
+pub(crate) use needs;
 
+impl Feature {
     /// Within what is not reached without the feature, for every way to it is refused: nothing behind this is compiled then.
     #[inline(always)]
     pub fn is_here(self) {
         assert!(self.built, "reached without the feature `{}`", self.name);
     }
 
+    /// The refusal of what needs a feature that was left out: [`Kind::Unsupported`].
     #[cold]
-    fn left_out(self) -> Error {
+    pub fn left_out(self) -> Error {
         let name = self.name;
         let text = text!(
             "this library was built without {name}: build it with all features, or with `{name}` among cargo's --features or in STICKSLIP_FEATURES of CMake"
@@ -67,9 +70,7 @@ mod tests {
 
     #[test]
     fn what_is_left_out_is_refused_by_name() {
-        let heat = |built| Feature { name: "heat", built }.check();
-        assert!(heat(true).is_ok());
-        let refusal = heat(false).unwrap_err();
+        let refusal = Feature { name: "heat", built: false }.left_out();
         assert_eq!(refusal.kind, Kind::Unsupported);
         assert!(refusal.message.contains("built without heat") && refusal.message.contains("STICKSLIP_FEATURES"));
     }

@@ -97,7 +97,7 @@ pub unsafe extern "C" fn stickslip_interface_condensed_multipliers(
     lambda: *mut f64,
 ) -> i32 {
     guard(|| {
-        features::CONDENSED.check()?;
+        features::needs!(CONDENSED);
         let h = &mut handle(interface)?.inner;
         let point = Point::positions(h, x1, x2)?;
         let host = vectors(h, host1, sizes(h).0, "host1")?;
@@ -133,7 +133,7 @@ pub unsafe extern "C" fn stickslip_interface_condensed_residual(
     force2: *mut f64,
 ) -> i32 {
     guard(|| {
-        features::CONDENSED.check()?;
+        features::needs!(CONDENSED);
         let h = &mut handle(interface)?.inner;
         let point = Point::read(h, x1, x2, lambda, std::ptr::null())?;
         let host = vectors(h, host1, sizes(h).0, "host1")?;
@@ -178,7 +178,7 @@ pub unsafe extern "C" fn stickslip_interface_condensed_coo(
     count: *mut i64,
 ) -> i32 {
     guard(|| {
-        features::CONDENSED.check()?;
+        features::needs!(CONDENSED);
         let h = handle(interface)?;
         let point = Point::read(&h.inner, x1, x2, lambda, std::ptr::null())?;
         let piece = choose(piece, "piece", &PIECES, PIECES.len() as i32)?;
@@ -215,7 +215,7 @@ pub unsafe extern "C" fn stickslip_interface_condensed_csr(
     values: *mut f64,
 ) -> i32 {
     guard(|| {
-        features::CONDENSED.check()?;
+        features::needs!(CONDENSED);
         let h = handle(interface)?;
         let point = Point::read(&h.inner, x1, x2, lambda, std::ptr::null())?;
         let csr = read_csr(h.base, n_rows, row_offsets, columns)?;
@@ -255,7 +255,7 @@ pub unsafe extern "C" fn stickslip_interface_condensed_pattern(
     count: *mut i64,
 ) -> i32 {
     guard(|| {
-        features::CONDENSED.check()?;
+        features::needs!(CONDENSED);
         let h = handle(interface)?;
         let point = Point::positions(&h.inner, x1, x2)?;
         let csr = read_csr(h.base, n_rows, row_offsets, columns)?;

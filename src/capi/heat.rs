@@ -127,7 +127,7 @@ pub unsafe extern "C" fn stickslip_interface_heat(
     nodes: *const stickslip_heat_nodes,
 ) -> i32 {
     guard(|| {
-        features::HEAT.check()?;
+        features::needs!(HEAT);
         let h = &mut handle(interface)?.inner;
         let point = Point::read(h, x1, x2, lambda, std::ptr::null())?;
         let conductance = read_heat(heat)?;
@@ -210,7 +210,7 @@ pub unsafe extern "C" fn stickslip_interface_heat_tangent_coo(
     count: *mut i64,
 ) -> i32 {
     guard(|| {
-        features::HEAT.check()?;
+        features::needs!(HEAT);
         let h = handle(interface)?;
         let point = Point::read(&h.inner, x1, x2, lambda, std::ptr::null())?;
         let conductance = read_heat(heat)?;
@@ -271,7 +271,7 @@ pub unsafe extern "C" fn stickslip_node_heat(
     conductance: *mut f64,
 ) -> i32 {
     guard(|| {
-        features::HEAT.check()?;
+        features::needs!(HEAT);
         let law = read_heat(heat)?;
         for (v, name, least) in [
             (jump, "jump", f64::NEG_INFINITY),

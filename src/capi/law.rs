@@ -182,7 +182,7 @@ fn read_law(law: *const stickslip_law) -> Result<Option<Own>> {
         ("direction", z, &[STICKSLIP_LAW_ORTHOTROPIC]),
     ];
     if kind != STICKSLIP_LAW_COULOMB {
-        features::LAWS.check()?;
+        features::needs!(LAWS);
     }
     let own = match kind {
         STICKSLIP_LAW_COULOMB => None,
@@ -248,7 +248,7 @@ pub unsafe extern "C" fn stickslip_interface_set_threshold(
     n_states: i64,
 ) -> i32 {
     guard(|| {
-        features::LAWS.check()?;
+        features::needs!(LAWS);
         let h = handle(interface)?;
         let base = h.base;
         let Some(function) = threshold else {

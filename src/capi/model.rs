@@ -40,7 +40,7 @@ pub(super) fn measure(model: Model, thickness: f64, name: &str) -> Result<Option
         return Err(Error::new(Kind::InvalidValue, text));
     }
     if model != Model::Solid {
-        features::LINES.check()?;
+        features::needs!(LINES);
     }
     Ok(match model {
         Model::Solid => None,

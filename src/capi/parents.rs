@@ -76,7 +76,7 @@ struct Parents {
 
 impl Parents {
     fn of(given: &stickslip_pair) -> Result<Parents> {
-        features::QUADRATIC.check()?;
+        features::needs!(QUADRATIC);
         let (one, two) = (parent(given.n1, given.x1, "pair.x1")?, parent(given.n2, given.x2, "pair.x2")?);
         check_linear_alone(given, "linear facets")?;
         Ok(Parents { one, two, space: multiplier_space(given.multiplier_space, "pair.multiplier_space")? })

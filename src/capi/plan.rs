@@ -6,6 +6,7 @@ use super::handle::{either, handle, stickslip_interface};
 use super::point::Point;
 use super::raw;
 use crate::error::{Error, Kind, Result};
+use crate::features;
 use crate::interface::{Extent, Plan, PlanOf, PlanPairs, PlanSystem};
 
 /// A plan of the pairs that are active at the positions, and of those of t_n: exactly the entries of the tangent there.
@@ -276,6 +277,7 @@ pub unsafe extern "C" fn stickslip_interface_condensed_plan(
     counts: *mut i64,
 ) -> i32 {
     guard(|| {
+        features::needs!(CONDENSED);
         let h = handle(interface)?;
         let point = Point::positions(&h.inner, x1, x2)?;
         let pairs = choose(pairs, "pairs", &PAIRS, 3)?;
@@ -312,6 +314,7 @@ pub unsafe extern "C" fn stickslip_interface_condensed_values(
     constraints: *mut f64,
 ) -> i32 {
     guard(|| {
+        features::needs!(CONDENSED);
         let h = handle(interface)?;
         let point = Point::read(&h.inner, x1, x2, lambda, std::ptr::null())?;
         either!(&mut h.inner, c => {

@@ -170,7 +170,7 @@ pub unsafe extern "C" fn stickslip_rigid_positions(
     x: *mut f64,
 ) -> i32 {
     guard(|| {
-        features::RIGID.check()?;
+        features::needs!(RIGID);
         let body = read_body(&sized::read(body)?)?;
         let motion = read_motion(&sized::read(motion)?, body.dimension)?;
         raw::check(x, "x")?;
@@ -200,7 +200,7 @@ pub unsafe extern "C" fn stickslip_rigid_resultant(
     resultant: *mut f64,
 ) -> i32 {
     guard(|| {
-        features::RIGID.check()?;
+        features::needs!(RIGID);
         let body = read_body(&sized::read(body)?)?;
         let motion = read_motion(&sized::read(motion)?, body.dimension)?;
         let forces = raw::numbers(forces, body.coordinates.len(), "forces")?;
@@ -223,7 +223,7 @@ pub unsafe extern "C" fn stickslip_rigid_resultant(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_rigid_turn(motion: *mut stickslip_rigid_motion) -> i32 {
     guard(|| {
-        features::RIGID.check()?;
+        features::needs!(RIGID);
         let mut m = sized::read(motion.cast_const())?;
         read_motion(&m, 3)?;
         let before = Matrix3::from_row_slice(&m.turned);
@@ -260,7 +260,7 @@ pub unsafe extern "C" fn stickslip_rigid_create(
     count: *mut i64,
 ) -> i32 {
     guard(|| {
-        features::RIGID.check()?;
+        features::needs!(RIGID);
         let n_bodies = raw::count(n_bodies, 1, "n_bodies")?;
         let base = read_base(index_base)?;
         sized::declared_size(bodies)?;
@@ -310,7 +310,7 @@ pub unsafe extern "C" fn stickslip_rigid_coo(
     columns: *mut i64,
 ) -> i32 {
     guard(|| {
-        features::RIGID.check()?;
+        features::needs!(RIGID);
         let r = plan(rigid)?;
         raw::check(rows, "rows")?;
         raw::check(columns, "columns")?;
@@ -341,7 +341,7 @@ pub unsafe extern "C" fn stickslip_rigid_values(
     values: *mut f64,
 ) -> i32 {
     guard(|| {
-        features::RIGID.check()?;
+        features::needs!(RIGID);
         let plan = &mut plan(rigid)?.plan;
         sized::declared_size(motions)?;
         let motion = |(k, (dimension, _)): (usize, (usize, usize))| read_motion(&read_each(motions, k)?, dimension);

@@ -18,7 +18,7 @@ impl<const N: usize> Contact<N> {
     pub fn set_offsets(&mut self, [one, two]: [Option<Vec<f64>>; 2]) -> Result<()> {
         let mut offsets = [offsets::checked(&self.setup.nonmortar, one)?, offsets::checked(&self.setup.mortar, two)?];
         if offsets.iter().any(|h| !h.is_empty()) {
-            features::OFFSETS.check()?;
+            features::needs!(OFFSETS);
         }
         let options = &self.setup.options;
         if offsets.iter().any(|h| !h.is_empty())

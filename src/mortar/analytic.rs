@@ -107,7 +107,7 @@ pub(super) fn no_closest_point() -> Error {
 /// # Errors
 /// [`Kind::UndefinedNormal`] when a quadrature point is the centre or lies on the axis.
 pub fn analytic_weights(frame: &NonmortarFrame, surface: &AnalyticSurface, rule: &Rule) -> Result<PairWeights> {
-    features::ANALYTIC.check()?;
+    features::needs!(ANALYTIC);
     simd::dispatch(Weights { frame, surface, rule })
 }
 
@@ -171,7 +171,7 @@ pub fn analytic_motion(
     p: &[[f64; MAX_CORNERS]; 3],
     forces: &mut ForceDerivatives,
 ) -> Result<GapDerivative> {
-    features::ANALYTIC.check()?;
+    features::needs!(ANALYTIC);
     simd::dispatch(Motion { frame, surface, rule, p, forces, raised: None }).map(GapDerivative::Blocks)
 }
 
@@ -188,7 +188,7 @@ pub fn analytic_motion_raised(
     heights: &[[f64; MAX_CORNERS]; 3],
     areas: &mut ForceDerivatives,
 ) -> Result<GapBlocks> {
-    features::ANALYTIC.check()?;
+    features::needs!(ANALYTIC);
     simd::dispatch(Motion { frame, surface, rule, p: &[ONE; 3], forces: areas, raised: Some(heights) })
 }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Bytes of the stripped library as a whole, without one feature at a time, and without any (docs/abi.md).
 
-    sizes.py --build DIR [--renew]    builds eight libraries in DIR; --renew writes the table into docs/abi.md
+    sizes.py --build DIR [--renew]    builds eleven libraries in DIR; --renew writes the table into docs/abi.md
 """
 
 import argparse

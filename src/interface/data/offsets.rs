@@ -5,6 +5,7 @@
 use super::node_data::check_length;
 use super::surface::Surface;
 use crate::error::{Error, Kind, Result};
+use crate::features;
 
 /// Checks the offsets of a surface; empty where all are 0: then there is no such effect.
 pub fn checked(surface: &Surface, offsets: Option<Vec<f64>>) -> Result<Vec<f64>> {
@@ -26,7 +27,7 @@ pub fn checked(surface: &Surface, offsets: Option<Vec<f64>>) -> Result<Vec<f64>>
 
 /// Whether either side has any.
 pub fn are_there((one, two): (&Surface, &Surface)) -> bool {
-    !(one.offsets.is_empty() && two.offsets.is_empty())
+    features::OFFSETS.built && !(one.offsets.is_empty() && two.offsets.is_empty())
 }
 
 /// How far offsets close a gap, and how far they open one, at most `[L]`; neither is negative.

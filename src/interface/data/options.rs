@@ -282,7 +282,7 @@ impl Options {
             return Err(Error::new(Kind::Unsupported, text));
         }
         if self.decision != Decision::Nodes {
-            features::POINTS.check()?;
+            features::needs!(POINTS);
         }
         if let Some(text) = self.beyond_points() {
             return Err(Error::new(Kind::Unsupported, text));

@@ -75,7 +75,7 @@ impl Surface {
         equations: Vec<[i64; 3]>,
         measure: Measure,
     ) -> Result<Surface> {
-        features::LINES.check()?;
+        features::needs!(LINES);
         Surface::build(side, (reference, facets), equations, Some(measure))
     }
 
@@ -132,7 +132,7 @@ impl Surface {
             return fail(Kind::InvalidValue, text!("node {k} belongs to no facet; leave it out"));
         }
         if measure.is_none() && given.iter().any(|facet| facet.parent.n > MAX_NODES) {
-            features::QUADRATIC.check()?;
+            features::needs!(QUADRATIC);
         }
         let (parents, kept) = match measure.is_some() || given.iter().any(|facet| facet.parent.n > MAX_NODES) {
             false => {
@@ -202,7 +202,7 @@ impl Surface {
     /// A rigid surface in closed form, placed by the points of its frame (see [`AnalyticSurface`]), which have no equations: four,
     /// of a line and a circle three with z = 0.
     pub fn analytic(side: &'static str, shape: AnalyticShape, frame: Vec<Vec3>) -> Result<Surface> {
-        features::ANALYTIC.check()?;
+        features::needs!(ANALYTIC);
         let fail = |kind, text: Text| Err(Error::new(kind, text!("{side}: {text}")));
         let points = shape.points();
         if frame.len() != points {
