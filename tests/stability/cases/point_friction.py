@@ -193,11 +193,13 @@ def cells():
     yield from series("points with friction, meshes", [f"{a}:{b}" for a, b in MESHES],
                       lambda t: uniform(blocks(tuple(map(int, t.split(":"))))), quick=("2:20",))
     yield from series("points with friction, r over its default", SCALES, augmentation, quick=("1e2",))
-    yield from series("points with friction, sheared, r over its default", SHEARED, over_r, may_refuse=lambda text: NO_ANSWER if text == SHEARED[-1] else None)
+    far_off = lambda text: NO_ANSWER if text == SHEARED[-1] else None
+    yield from series("points with friction, sheared, r over its default", SHEARED, over_r, may_refuse=far_off)
     yield from series("points with friction, unit of length", UNITS, lambda t: uniform(blocks(size=float(t))), quick=("1e-3",))
     yield from series("points with friction, unit of stress", UNITS,
                       lambda t: uniform(blocks(stress=float(t)), pressure=PRESSURE * float(t)))
-    yield from series("points, held by stick, share of its limit", held.SHARES, lambda t: sheared(-SHEAR[0] / SHEAR[2] / float(t)), quick=("0.999999",))
+    at_limit = lambda share: sheared(-SHEAR[0] / SHEAR[2] / float(share))
+    yield from series("points, held by stick, share of its limit", held.SHARES, at_limit, quick=("0.999999",))
     yield from series("points, slope, friction in excess of need", held.MARGINS, lambda t: at_points(held.slope(t)), quick=("1e-8",))
     yield from series("points, slope too steep by this part", held.EXCESS[::-1], lambda t: at_points(held.slope(f"-{t}")), may_refuse=held.FREE)
     yield from series("points, a block drawn along", SLIDES, drawn, quick=("0.5",))
