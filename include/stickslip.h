@@ -1895,7 +1895,7 @@ int32_t stickslip_interface_history_export(struct stickslip_interface *interface
 ///
 /// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, HISTORY_MISMATCH: its checksum does not fit (any single bit that has
 /// changed shows), or it is of other facets, of coordinates of the first configuration that differ in any digit, of
-/// another kind of law, multiplier basis, weights, slip measure or analytic shape, or of an older layout. mu,
+/// another kind of law, multiplier basis, decision, weights, slip measure or analytic shape, or of an older layout. mu,
 /// augmentation, tolerances and the form may be others.
 /// Cost: O(pairs) and a copy; the next evaluation integrates. Allocates.
 int32_t stickslip_interface_history_import(struct stickslip_interface *interface,

@@ -13,6 +13,8 @@ LINE_BOUND = {5: 1.6e-2, 10: 9e-3, 20: 5e-3}
 BALL_BOUND = {5: 2.4e-2, 8: 1.4e-2}
 # Of the shear of Cattaneo and Mindlin: the study's 4.5, 2.3, 1.1 %, and a tenth.
 SHEAR_BOUND = {5: 5e-2, 10: 2.5e-2, 20: 1.25e-2}
+# A line of the plane, or of one layer of cells in space, whose facets are squares where ten of them are over a half-width.
+IN_SPACE = {"plane": "", "layer": " in space"}
 # Pressed and pulled in one step, standard nodes end elsewhere.
 SHEARED = {name: law for name, law in LAWS.items() if name != "nodes, standard"}
 # Steps in which nothing moves, and what all of them may change, over the largest.
@@ -55,6 +57,7 @@ def points_full(verdicts, driver):
     line(verdicts, driver, LINE_BOUND, LOADS)
     shear(verdicts, driver, SHEAR_BOUND, LOADS)
     shear_committed(verdicts, driver, SHEAR_BOUND, LOADS)
+    shear(verdicts, driver, (10,), FEW, "layer")
     rest(verdicts, driver, RESTS)
     ball(verdicts, driver, BALL_BOUND, LOADS)
     corners(verdicts, driver, CORNER_BOUND, LOADS)
@@ -111,7 +114,7 @@ def patches(verdicts, driver):
 def errors(driver, kind, facets, count, laws, pull=0.0):
     """{law: (errors, iterations)} over `count` of the ten loads; with a pull of what acts along the surface."""
     scene, found = Hertz(kind, facets), {}
-    error = Hertz.error_of_shear if pull else scene.error
+    error = scene.error_of_shear if pull else scene.error
     loads = half_widths(facets, LOADS)[:: LOADS // count][:count]
     for name, law in laws.items():
         runs = [driver.run(scene.scene(driver, a, pull), *options(law), label=f"{kind}_{facets}_{a:.4f}_{'pull_' if pull else ''}{label(law)}")
@@ -140,9 +143,10 @@ def line(verdicts, driver, sizes, count):
         compare(verdicts, f"Hertz' line, {facets} facets", errors(driver, "plane", facets, count, LAWS), LINE_BOUND[facets])
 
 
-def shear(verdicts, driver, sizes, count):
+def shear(verdicts, driver, sizes, count, kind="plane"):
     for facets in sizes:
-        compare(verdicts, f"shear of a line, {facets} facets", errors(driver, "plane", facets, count, SHEARED, PULL), SHEAR_BOUND[facets])
+        found = errors(driver, kind, facets, count, SHEARED, PULL)
+        compare(verdicts, f"shear of a line{IN_SPACE[kind]}, {facets} facets", found, SHEAR_BOUND[facets])
 
 
 def shear_committed(verdicts, driver, sizes, count):

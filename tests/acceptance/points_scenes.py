@@ -148,11 +148,10 @@ class Hertz:
         }
         return write(scene, driver.output / f"{stem}.yaml")
 
-    @staticmethod
-    def error_of_shear(run):
-        """Of the traction along a plane line, by Cattaneo and Mindlin, at equal force and pull."""
-        table = run.interface(NAME)
-        along, across = (line_of(table, table[f], 1) for f in ("fx", "fy"))
+    def error_of_shear(self, run):
+        """Of the traction along a line, by Cattaneo and Mindlin, at equal force and pull."""
+        table, thick = run.interface(NAME), THICK if self.kind == "layer" else 1
+        along, across = (line_of(table, table[f], thick) for f in ("fx", "fy" if self.kind == "plane" else "fz"))
         exact = formulas.LineContact(across.force.sum(), MODULUS, RADIUS, MU, -along.force.sum()).shear
         return profile_error(along, -along.force / along.length, exact)
 

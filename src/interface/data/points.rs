@@ -74,6 +74,26 @@ pub enum Closed {
     Part(usize),
 }
 
+impl Closed {
+    /// phi times n_AB of all pairs of the facet together, of what is closed; `parts`: the weights of the closed parts, `room` for their sum.
+    #[inline]
+    pub fn mass<'a>(self, facet: &'a PointFacet, parts: &[PairWeights], room: &'a mut OfNodes) -> &'a OfNodes {
+        *room = OfNodes::default();
+        match self {
+            Closed::Nothing => {}
+            Closed::All => return &facet.mass,
+            Closed::Part(first) => {
+                for closed in &parts[first..first + facet.places().len()] {
+                    for (m, n) in room.as_flattened_mut().iter_mut().zip(closed.ab.as_flattened()) {
+                        *m += n;
+                    }
+                }
+            }
+        }
+        room
+    }
+}
+
 /// The step, and the answer at a point.
 #[derive(Debug, Default)]
 pub struct Points {
@@ -93,6 +113,11 @@ pub struct Points {
     pub sigma: Vec<f64>,
     pub factors: Vec<f64>,
     pub shares: Vec<f64>,
+    /// Per node r_A M_A = rhat_A [F/L^3], of the step; and rhat_A c_A before it is divided by it.
+    pub rhat: Vec<f64>,
+    pub rows: Vec<f64>,
+    /// Per facet int N_A t of its nodes; 0 where it is open.
+    pub forces: Vec<[f64; MAX_CORNERS]>,
     /// Per node int N_A t over its covered area [F/L^2].
     pub tractions: Vec<f64>,
     /// Whether anything covers it.
@@ -112,32 +137,16 @@ impl Points {
         }
     }
 
-    /// The same of n_AB of all of its pairs together.
-    pub fn closed_mass(&self, facet: usize) -> OfNodes {
-        let mut mass = OfNodes::default();
-        match self.states[facet] {
-            Closed::Nothing => {}
-            Closed::All => mass = self.facets[facet].mass,
-            Closed::Part(_) => {
-                for closed in self.facets[facet].places().filter_map(|pair| self.closed(facet, pair)) {
-                    for (m, n) in mass.as_flattened_mut().iter_mut().zip(closed.ab.as_flattened()) {
-                        *m += n;
-                    }
-                }
-            }
-        }
-        mass
-    }
-
     /// On the heap `[bytes]`.
     pub fn bytes(&self) -> usize {
-        let reals = [&self.sigma, &self.factors, &self.shares, &self.tractions];
+        let reals = [&self.sigma, &self.factors, &self.shares, &self.rhat, &self.rows, &self.tractions];
         self.planes.capacity() * size_of::<Vec3>()
             + self.facets.capacity() * size_of::<PointFacet>()
             + self.pairs.capacity() * size_of::<PointPair>()
             + self.states.capacity() * size_of::<Closed>()
             + self.closed.capacity() * size_of::<PairWeights>()
             + reals.iter().map(|v| v.capacity() * size_of::<f64>()).sum::<usize>()
+            + self.forces.capacity() * size_of::<[f64; MAX_CORNERS]>()
             + self.is_covered.capacity()
             + self.friction.bytes()
     }

@@ -92,6 +92,8 @@ impl Points {
         let factor = |a: usize| given.augmentation(a) * given.history().areas[a] / stabilising(given, a);
         self.factors.clear();
         self.factors.store_all((0..given.nodes()).map(factor))?;
+        self.rhat.clear();
+        self.rhat.store_all((0..given.nodes()).map(|a| given.augmentation(a) * given.history().areas[a]))?;
         self.is_settled = true;
         Ok(())
     }
@@ -220,49 +222,54 @@ impl Points {
         responses: &mut [NodeResponse<N>],
     ) -> Result<()> {
         self.settle(given)?;
-        let areas = &given.history().areas;
         memory::refill(&mut self.is_covered, false, lambda.len())?;
-        memory::refill(&mut self.sigma, 0.0, lambda.len())?;
-        memory::refill(&mut self.shares, 0.0, lambda.len())?;
-        memory::refill(&mut self.tractions, 0.0, lambda.len())?;
+        for of_nodes in [&mut self.sigma, &mut self.rows, &mut self.shares, &mut self.tractions] {
+            memory::refill(of_nodes, 0.0, lambda.len())?;
+        }
         for (a, sum) in sums.iter().enumerate().filter(|(a, sum)| sum.coverage > given.least_coverage(*a)) {
-            let gap = given.normal(a)?.dot(&sum.gap_now) / sum.coverage;
+            let (normal, response) = (given.normal(a)?, &mut responses[a]);
+            let gap = normal.dot(&sum.gap_now) / sum.coverage;
             self.is_covered[a] = true;
-            self.sigma[a] = lambda[a][0] + given.augmentation(a) * areas[a] * gap;
+            self.sigma[a] = lambda[a][0] + self.rhat[a] * gap;
+            (response.state, response.traction) = (State::Gap, Vec3::zeros());
+            response.sigma = normal * self.sigma[a];
         }
         self.close(given)?;
+        self.sum_up(lambda)?;
         for (a, response) in responses.iter_mut().enumerate().filter(|(a, _)| self.is_covered[*a]) {
-            (response.state, response.traction) = (State::Gap, Vec3::zeros());
-            (response.row, response.sigma) = (SVector::zeros(), given.normal(a)? * self.sigma[a]);
-        }
-        for (at, facet) in self.facets.iter().enumerate() {
-            let (multipliers, of_nodes) = (facet.of_multipliers(lambda), &mut responses[..]);
-            for (k, &a) in facet.nodes().iter().enumerate().filter(|(_, a)| self.is_covered[**a]) {
-                let factor = self.factors[a];
-                let left =
-                    (0..MAX_CORNERS).map(|l| (facet.mass[k][l] + factor * facet.stabilisation[k][l]) * multipliers[l]);
-                of_nodes[a].row -= SVector::from_element(left.sum());
-            }
-            if self.states[at] == Closed::Nothing {
-                continue;
-            }
-            let closed = self.closed_mass(at);
-            let forces = times(&closed, &facet.of(&self.sigma));
-            for (k, &a) in facet.nodes().iter().enumerate().filter(|(_, a)| self.is_covered[**a]) {
-                let force = forces[k];
-                of_nodes[a].row += SVector::from_element(force);
-                self.tractions[a] += force;
-                self.shares[a] += closed[k].iter().sum::<f64>();
-            }
-        }
-        for (a, response) in responses.iter_mut().enumerate().filter(|(a, _)| self.is_covered[*a]) {
-            response.row /= given.augmentation(a) * areas[a];
+            response.row = SVector::from_element(self.rows[a] / self.rhat[a]);
             self.tractions[a] /= sums[a].coverage;
             self.shares[a] /= sums[a].coverage;
+            if self.shares[a] > 0.0 {
+                response.state = State::Slip;
+                response.traction = given.normal(a)? * self.tractions[a];
+            }
         }
-        for (a, response) in responses.iter_mut().enumerate().filter(|(a, _)| self.shares[*a] > 0.0) {
-            response.state = State::Slip;
-            response.traction = given.normal(a)? * self.tractions[a];
+        Ok(())
+    }
+
+    /// What facets add to their nodes' rows, tractions and shares.
+    fn sum_up<const N: usize>(&mut self, lambda: &[SVector<f64, N>]) -> Result<()> {
+        let Points { facets, states, closed, sigma, factors, is_covered, rows, tractions, shares, forces, .. } = self;
+        forces.clear();
+        memory::grow(forces, facets.len())?;
+        for (facet, state) in facets.iter().zip(&*states) {
+            let (multipliers, mut room) = (facet.of_multipliers(lambda), OfNodes::default());
+            let is_open = *state == Closed::Nothing;
+            let closed = state.mass(facet, closed, &mut room);
+            let own = if is_open { [0.0; MAX_CORNERS] } else { times(closed, &facet.of(sigma)) };
+            for (k, &a) in facet.nodes().iter().enumerate().filter(|(_, a)| is_covered[**a]) {
+                let factor = factors[a];
+                let left =
+                    (0..MAX_CORNERS).map(|l| (facet.mass[k][l] + factor * facet.stabilisation[k][l]) * multipliers[l]);
+                rows[a] -= left.sum::<f64>();
+                if !is_open {
+                    rows[a] += own[k];
+                    tractions[a] += own[k];
+                    shares[a] += closed[k].iter().sum::<f64>();
+                }
+            }
+            forces.store(own)?;
         }
         Ok(())
     }
@@ -280,8 +287,8 @@ impl Points {
             if self.states[at] == Closed::Nothing {
                 continue;
             }
-            let (sigma, own) = (facet.of(&self.sigma), self.closed_mass(at));
-            facet.nodes().iter().zip(times(&own, &sigma)).for_each(|(&a, t)| r.nonmortar[a] += facet.normal * t);
+            let sigma = facet.of(&self.sigma);
+            facet.nodes().iter().zip(self.forces[at]).for_each(|(&a, t)| r.nonmortar[a] += facet.normal * t);
             for place in facet.places() {
                 let Some(closed) = self.closed(at, place) else { break };
                 let other = two.host_nodes(self.pairs[place].two).iter().zip(times(&closed.ac, &sigma));

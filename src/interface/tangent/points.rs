@@ -8,7 +8,7 @@ use super::star::{Around, Star};
 use super::union::Pairs;
 use crate::error::Result;
 use crate::geometry::Vec3;
-use crate::interface::data::points::Points;
+use crate::interface::data::points::{OfNodes, Points};
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::sums::NodeSums;
 use crate::memory::{self, Store};
@@ -62,8 +62,8 @@ impl OfNode {
         let Ok(at) = points.facets.binary_search_by_key(&f, |facet| facet.one) else { return };
         let facet = &points.facets[at];
         let Some(l) = facet.nodes().iter().position(|&b| b == a) else { return };
-        let (is_covered, areas) = (points.is_covered[a], &given.history().areas);
-        let slope = if is_covered { given.augmentation(a) * areas[a] / sums[a].coverage } else { 0.0 };
+        let is_covered = points.is_covered[a];
+        let slope = if is_covered { points.rhat[a] / sums[a].coverage } else { 0.0 };
         for (k, &b) in facet.nodes().iter().enumerate().filter(|(_, b)| points.is_covered[**b]) {
             if let Some(row) = self.star.row(b) {
                 self.rows[row].left += facet.mass[k][l] + points.factors[b] * facet.stabilisation[k][l];
@@ -72,7 +72,8 @@ impl OfNode {
         if !is_covered {
             return;
         }
-        let mass = points.closed_mass(at);
+        let mut room = OfNodes::default();
+        let mass = points.states[at].mass(facet, &points.closed, &mut room);
         for (k, &b) in facet.nodes().iter().enumerate() {
             self.neighbours[self.star.place(b)].force += facet.normal * mass[l][k];
             if let Some(row) = self.star.row(b).filter(|_| points.is_covered[b]) {
