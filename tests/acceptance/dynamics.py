@@ -1,5 +1,6 @@
 """Implicit dynamics: masses of every kind of cell, free flight and turns, orders of convergence, energy in impacts, two bars against the
-closed form, a block on an incline, the tangent against differences, ranks and solvers, rollback, refusals."""
+closed form, a block on an incline, rigid bodies that tumble, bounce and roll, the tangent against differences, ranks and solvers,
+rollback, refusals."""
 
 import csv
 import math
