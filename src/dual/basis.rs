@@ -46,6 +46,12 @@ impl DualBasis {
         self.areas.map(|m| self.coverage.fade * m)
     }
 
+    /// Dphi = phi' (sum_A Dm_A - kappa D|e|) / |e|: of all pairs, or of one with its share of kappa.
+    #[inline]
+    pub fn fade_derivative(&self, dm: &[f64; MAX_CORNERS], (share, whole): (f64, f64)) -> f64 {
+        self.coverage.slope * (dm.iter().sum::<f64>() - share * whole) / self.area
+    }
+
     /// m^-1 v.
     pub(super) fn solve(&self, v: &[f64; MAX_CORNERS]) -> [f64; MAX_CORNERS] {
         self.mass.solve(v)

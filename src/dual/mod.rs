@@ -21,7 +21,7 @@ mod vectors;
 
 pub use basis::DualBasis;
 pub use columns::{Columns, FacetColumns, GROUP, TractionDerivatives, couple};
-pub use coverage::{Coverage, FADE_BAND};
+pub use coverage::{Coverage, FADE_BAND, whole_area_derivative};
 pub use full::FullDerivatives;
 pub use mass::{Mass, SMALLEST_DETERMINANT, SMALLEST_PIVOT};
 pub use motion::{FacetMotion, PairShare};

@@ -75,7 +75,7 @@ impl<'a> FacetMotion<'a> {
     #[inline(never)]
     pub(super) fn dfade(&self, of_pair: f64, dm: &[f64; MAX_CORNERS], k: usize, j: usize) -> f64 {
         let whole = if k < MORTAR { self.area[k][j] } else { 0.0 };
-        self.basis.coverage.slope * (dm.iter().sum::<f64>() - of_pair * whole) / self.basis.area
+        self.basis.fade_derivative(dm, (of_pair, whole))
     }
 
     /// Makes of a pair's derivatives its share of the facet's, with respect to the facet's nodes and so many nodes of the

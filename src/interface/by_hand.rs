@@ -77,7 +77,7 @@ fn an_evaluation_stage_by_stage() {
     let lambda = initial_multipliers(given, &sums).unwrap();
     let scope = Scope { extent: Extent::Whole, apart: false };
     let mut responses = Responses::default();
-    respond(given, &lambda, &sums, scope, &mut responses).unwrap();
+    respond((given, Some(&active)), &lambda, &sums, scope, &mut responses).unwrap();
     assert!(responses.nodes.iter().all(|r| r.state == State::Stick) && responses.counts.frictional == 4);
 
     let forces = residual(given, active.weighted(setup.surfaces()), &lambda, &responses.nodes).unwrap();
@@ -107,7 +107,7 @@ fn what_nothing_covers_is_answered_without_the_law() {
     let lambda = [Vec3::new(0.0, 0.0, -2.0); 4];
     let scope = Scope { extent: Extent::Whole, apart: true };
     let mut responses = Responses::default();
-    respond(given, &lambda, &[NodeSums::default(); 4], scope, &mut responses).unwrap();
+    respond((given, None), &lambda, &[NodeSums::default(); 4], scope, &mut responses).unwrap();
     assert_eq!(responses.counts.left_out, 4);
     let row = Vec3::new(0.0, 0.0, 2.0 / given.augmentation(0));
     assert!(responses.nodes.iter().all(|r| r.state == State::Gap && r.row == row));

@@ -300,8 +300,9 @@ impl<const N: usize> Cache<N> {
             }
         }
         let scope = self.scope(extent);
+        let active = self.kept.scope.map(|_| &self.kept.active);
         let answers = &mut self.answers;
-        respond(Given { setup, step }, lambda, &answers.sums, scope, &mut answers.responses)?;
+        respond((Given { setup, step }, active), lambda, &answers.sums, scope, &mut answers.responses)?;
         let counts = answers.responses.counts;
         self.work.counters.nodes_evaluated += counts.total() - counts.left_out;
         self.work.counters.nodes = counts;

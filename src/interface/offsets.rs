@@ -22,6 +22,13 @@ impl<const N: usize> Contact<N> {
         }
         let options = &self.setup.options;
         if offsets.iter().any(|h| !h.is_empty())
+            && options.decides_at_points()
+            && options.effective_weights() == Weights::Current
+        {
+            let text = "offsets with STICKSLIP_DECISION_POINTS and weights of now: what they add to the gaps of points is not in the tangent; take STICKSLIP_WEIGHTS_COMMITTED or STICKSLIP_WEIGHTS_REFERENCE, or STICKSLIP_DECISION_NODES";
+            return Err(Error::new(Kind::Unsupported, text));
+        }
+        if offsets.iter().any(|h| !h.is_empty())
             && N == 3
             && options.follows_normals()
             && options.effective_weak_coverage() > 0.0

@@ -1,11 +1,14 @@
-//! The weights of the part of an overlap of two lines where a field is negative, as of facets (`mortar/closed.rs`).
+//! The weights of the part of an overlap of two lines where a field is negative, as of facets: of the points that are there
+//! (`mortar/closed.rs`), and of a region of its own (`mortar/closed_part.rs`), which is an interval.
 
+use super::derivatives::LineDerivatives;
 use super::facet::LineFacet;
-use super::linear;
-use super::segment::Measure;
+use super::linear::{self, Linear};
+use super::segment::{LineSegment, Measure};
 use super::weights::{LineWeights, PartPair};
 use crate::error::Result;
 use crate::mortar::{MultiplierSpace, OverlapPoint};
+use crate::simd;
 
 impl LineWeights {
     /// Those of the points where the field with these values at the ends of the non-mortar line is negative; of lines with two nodes.
@@ -16,6 +19,41 @@ impl LineWeights {
         }
         weights
     }
+
+    /// Those of the region.
+    pub fn closed_part(one: &LineFacet, two: &LineFacet, measure: Measure, field: [f64; 2]) -> LineWeights {
+        let mut weights = LineWeights::default();
+        if let Some(segment) = closed_part(one, two, field) {
+            weights.add_linear(&linear::weights(&segment, measure));
+        }
+        weights
+    }
+}
+
+impl LineDerivatives {
+    /// Of the weights of the region, to be multiplied with the field at fixed nodal values: where the field vanishes the region's end
+    /// has the velocity of a node, and nothing to multiply it with.
+    pub fn closed_part(one: &LineFacet, two: &LineFacet, measure: Measure, field: [f64; 2]) -> LineDerivatives {
+        let mut d = LineDerivatives::default();
+        if let Some(segment) = closed_part(one, two, field) {
+            simd::dispatch(Linear(&segment, measure, [&mut d.ab, &mut d.ac]));
+        }
+        d
+    }
+}
+
+/// The overlap as far as the field with these values at the ends of the first line is negative.
+fn closed_part(one: &LineFacet, two: &LineFacet, field: [f64; 2]) -> Option<LineSegment> {
+    let mut segment = PartPair::of([one, two], (0, 0), MultiplierSpace::Corner)?.segment;
+    let at = segment.ends.map(|(s, _)| {
+        let [a, b] = segment.shares(0, s);
+        a * field[0] + b * field[1]
+    });
+    let [(from, _), (to, _)] = segment.ends;
+    for (end, _) in segment.ends.iter_mut().zip(at).filter(|(_, value)| *value >= 0.0) {
+        end.0 = from + (to - from) * (at[0] / (at[0] - at[1]));
+    }
+    (at[0] < 0.0 || at[1] < 0.0).then_some(segment)
 }
 
 /// Shows `to` the points of two lines with two nodes, those that their weights are sums over.

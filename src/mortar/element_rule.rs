@@ -88,7 +88,7 @@ fn is_on(facet: &Projection, p: Vec2) -> bool {
 }
 
 /// A point of the non-mortar facet.
-struct Point {
+pub(super) struct Point {
     xi: f64,
     eta: f64,
     /// Weight on the reference cell, and times j [L^2].
@@ -99,54 +99,72 @@ struct Point {
     y: Vec2,
 }
 
+/// A point, the functions of the mortar facet's map there, which are N_C, and where on the mortar facet that is.
+pub(super) type PointOfBoth = (Point, [f64; MAX_CORNERS], [f64; 3]);
+
 impl Point {
     fn of(frame: &NonmortarFrame, line: &[[f64; 2]], i: usize) -> Point {
         let one = &frame.projection;
-        let [xi, eta, weight] = if one.shape.n == 3 { triangle_point(line, i) } else { square_point(line, i) };
+        Point::at(frame, if one.shape.n == 3 { triangle_point(line, i) } else { square_point(line, i) })
+    }
+
+    /// At these coordinates, with this weight on the reference cell.
+    fn at(frame: &NonmortarFrame, [xi, eta, weight]: [f64; 3]) -> Point {
+        let one = &frame.projection;
         let (n, j) = (one.shape.values(xi, eta), frame.map.determinant());
         let y = (0..MAX_CORNERS).fold(Vec2::zeros(), |y, k| y + one.y[k] * n[k]);
         Point { xi, eta, weight, area: weight * (j[0] + j[1] * xi + j[2] * eta), n, y }
     }
 
-    /// Those of a segment that count, each with the functions of the mortar facet's map there, which are N_C, and where on
-    /// the mortar facet that is.
+    /// With the mortar facet.
+    fn on(self, segment: &Segment) -> PointOfBoth {
+        let two = segment.mortar_map.inverse([self.y.x, self.y.y]);
+        let n2 = segment.mortar.shape.values(two.xi, two.eta);
+        (self, n2, [two.xi, two.eta, two.det])
+    }
+
+    /// The same of the point at these coordinates.
+    pub(super) fn of_both(frame: &NonmortarFrame, segment: &Segment, at: [f64; 3]) -> PointOfBoth {
+        Point::at(frame, at).on(segment)
+    }
+
+    /// Those of a segment that count.
     fn all<'a>(
         frame: &'a NonmortarFrame,
         segment: &'a Segment,
         points: CellPoints,
-    ) -> impl Iterator<Item = (Point, [f64; MAX_CORNERS], [f64; 3])> + 'a {
-        (0..points.count()).filter(move |i| points.inside >> i & 1 == 1).map(move |i| {
-            let p = Point::of(frame, points.line, i);
-            let two = segment.mortar_map.inverse([p.y.x, p.y.y]);
-            let n2 = segment.mortar.shape.values(two.xi, two.eta);
-            (p, n2, [two.xi, two.eta, two.det])
-        })
+    ) -> impl Iterator<Item = PointOfBoth> + 'a {
+        let counts = move |i: &usize| points.inside >> i & 1 == 1;
+        (0..points.count()).filter(counts).map(move |i| Point::of(frame, points.line, i).on(segment))
     }
 }
 
 /// The weights of the points.
 pub(super) fn weights(frame: &NonmortarFrame, segment: &Segment, points: CellPoints) -> PairWeights {
     let mut w = PairWeights::default();
-    for (p, n2, _) in Point::all(frame, segment, points) {
-        for a in 0..MAX_CORNERS {
-            for k in 0..MAX_NODES {
-                w.ab[a][k] += p.area * p.n[a] * p.n[k];
-                w.ac[a][segment.mortar.node[k]] += p.area * p.n[a] * n2[k];
-            }
+    Point::all(frame, segment, points).for_each(|p| add_weights(&mut w, segment, &p));
+    w
+}
+
+/// Adds a point's.
+pub(super) fn add_weights(w: &mut PairWeights, segment: &Segment, (p, n2, _): &PointOfBoth) {
+    for a in 0..MAX_CORNERS {
+        for k in 0..MAX_NODES {
+            w.ab[a][k] += p.area * p.n[a] * p.n[k];
+            w.ac[a][segment.mortar.node[k]] += p.area * p.n[a] * n2[k];
         }
     }
-    w
 }
 
 /// d/dy: per corner's slot k the two components of y_k, of each four numbers; mortar ones in the order of the projection.
 type Sums = [[[f64; 4]; 2]; PAIR_CORNERS];
 
 /// Derivatives with respect to the projected vertices.
-struct Derivatives<const F: usize> {
+pub(super) struct Derivatives<const F: usize> {
     /// Of f_B = int p N_B of the fields p = sum N_A p_A.
-    one: [Sums; F],
+    pub one: [Sums; F],
     /// Of f_C = -int p N_C, C in the order of the facet as given.
-    two: [Sums; F],
+    pub two: [Sums; F],
     /// Of gamma_A = int N_A (sum N_B d_B - sum N_C d_C) at fixed heights d.
     gap: Sums,
 }
@@ -158,33 +176,46 @@ impl<const F: usize> Derivatives<F> {
         fields: &[[f64; MAX_CORNERS]; F],
         heights: &[f64; MAX_CORNERS],
     ) -> Self {
+        let mut d = Derivatives::zero();
+        Point::all(frame, segment, points).for_each(|p| d.add((frame, segment), &p, fields, heights));
+        d
+    }
+
+    pub(super) fn zero() -> Self {
         let zero = [[[0.0; 4]; 2]; PAIR_CORNERS];
-        let mut d = Derivatives { one: [zero; F], two: [zero; F], gap: zero };
+        Derivatives { one: [zero; F], two: [zero; F], gap: zero }
+    }
+
+    /// Adds those of a point.
+    pub(super) fn add(
+        &mut self,
+        (frame, segment): (&NonmortarFrame, &Segment),
+        (p, n2, [xi2, eta2, det2]): &PointOfBoth,
+        fields: &[[f64; MAX_CORNERS]; F],
+        heights: &[f64; MAX_CORNERS],
+    ) {
         let (map1, map2) = (frame.map.gradients::<Plain>(), segment.mortar_map.gradients::<Plain>());
         let two = &segment.mortar;
-        for (p, n2, [xi2, eta2, det2]) in Point::all(frame, segment, points) {
-            for c in 0..2 {
-                let g1 = at(&map1, c, p.xi, p.eta).map(|g| g * p.weight); // w Dj / Dy1_k
-                let g2 = at(&map2, c, xi2, eta2).map(|g| g * p.area / det2); // w j grad N_C
-                let slope = dot(&g2, &two.d);
-                let gap = dot(&p.n, heights) - dot(&n2, &two.d);
-                for k in 0..MAX_CORNERS {
-                    for a in 0..MAX_CORNERS {
-                        d.gap[k][c][a] += p.n[a] * (gap * g1[k] - slope * p.n[k]);
-                        d.gap[MORTAR_CORNER + k][c][a] += p.n[a] * slope * n2[k];
-                    }
-                    for (f, field) in fields.iter().enumerate() {
-                        let value = dot(field, &p.n);
-                        for b in 0..MAX_NODES {
-                            d.one[f][k][c][b] += value * p.n[b] * g1[k];
-                            d.two[f][k][c][two.node[b]] -= value * (n2[b] * g1[k] + g2[b] * p.n[k]);
-                            d.two[f][MORTAR_CORNER + k][c][two.node[b]] += value * g2[b] * n2[k];
-                        }
+        for c in 0..2 {
+            let g1 = at(&map1, c, p.xi, p.eta).map(|g| g * p.weight); // w Dj / Dy1_k
+            let g2 = at(&map2, c, *xi2, *eta2).map(|g| g * p.area / det2); // w j grad N_C
+            let slope = dot(&g2, &two.d);
+            let gap = dot(&p.n, heights) - dot(n2, &two.d);
+            for k in 0..MAX_CORNERS {
+                for a in 0..MAX_CORNERS {
+                    self.gap[k][c][a] += p.n[a] * (gap * g1[k] - slope * p.n[k]);
+                    self.gap[MORTAR_CORNER + k][c][a] += p.n[a] * slope * n2[k];
+                }
+                for (f, field) in fields.iter().enumerate() {
+                    let value = dot(field, &p.n);
+                    for b in 0..MAX_NODES {
+                        self.one[f][k][c][b] += value * p.n[b] * g1[k];
+                        self.two[f][k][c][two.node[b]] -= value * (n2[b] * g1[k] + g2[b] * p.n[k]);
+                        self.two[f][MORTAR_CORNER + k][c][two.node[b]] += value * g2[b] * n2[k];
                     }
                 }
             }
         }
-        d
     }
 }
 
@@ -198,7 +229,7 @@ fn at(gradients: &[[Plain; 2]; 3], c: usize, xi: f64, eta: f64) -> [f64; MAX_COR
 }
 
 /// As the chain to the nodes takes them.
-fn lanes<L: Lanes>(sums: &Sums) -> PlaneDerivatives<L> {
+pub(super) fn lanes<L: Lanes>(sums: &Sums) -> PlaneDerivatives<L> {
     let mut d = [[L::splat(0.0); 2]; PAIR_CORNERS];
     for k in 0..PAIR_CORNERS {
         d[k] = [L::load(&sums[k][0]), L::load(&sums[k][1])];

@@ -35,11 +35,12 @@ LOADS = 10
 SMALL = ("-contact_weights", "reference")
 DUAL = ("-contact_basis", "dual")
 POINTS = (*DUAL, "-contact_decision", "points")
-# Points have weights of the last step, in place of those of now: the load is taken in four steps.
+# Points with weights of the last step: the load is taken in four steps.
 STEPPED = ("-contact_weights", "committed", "-steps_times", "0.25,0.5,0.75,1")
 LAWS = {
     "stickslip, defaults": (),
     "stickslip, dual": DUAL,
+    "stickslip, points": POINTS,
     "stickslip, small displacements": SMALL,
     "stickslip, small displacements, dual": (*SMALL, *DUAL),
     "stickslip, small displacements, points": (*SMALL, *POINTS),

@@ -26,7 +26,7 @@ int main(void) {
   double direction[UNKNOWNS], lambda[N1], moved_lambda[N1], share[N1];
   int32_t state[N1];
   int cut = 0;
-  for (int32_t weights = STICKSLIP_WEIGHTS_COMMITTED; weights <= STICKSLIP_WEIGHTS_REFERENCE; ++weights) {
+  for (int32_t weights = STICKSLIP_WEIGHTS_CURRENT; weights <= STICKSLIP_WEIGHTS_REFERENCE; ++weights) {
     create(&one, weights);
     scene_create(&one);
     uint64_t random = 3;
@@ -71,8 +71,9 @@ int main(void) {
   CHECK(cut > 0);
 
   create(&one, STICKSLIP_WEIGHTS_CURRENT);
+  one.options.normals = STICKSLIP_NORMALS_CURRENT;
   CHECK_REFUSED(stickslip_interface_create(&one.nonmortar, &one.mortar, &one.options, &one.interface), STICKSLIP_UNSUPPORTED,
-                "weights of now");
+                "normals of now");
   create(&one, STICKSLIP_WEIGHTS_REFERENCE);
   one.options.modulus = 0.0;
   one.options.augmentation = 15.0;

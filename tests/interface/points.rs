@@ -9,11 +9,11 @@ use nalgebra::SVector;
 use stickslip::error::Kind;
 use stickslip::geometry::Vec3;
 use stickslip::interface::{
-    Contact, Decision, Form, Friction, MultiplierBasis, Options, Owner, RowScale, Scheme, Stiffness, Weights,
+    Contact, Decision, Form, Friction, MultiplierBasis, Normals, Options, Owner, RowScale, Scheme, Stiffness, Weights,
 };
 use stickslip::law::State;
 use stickslip::line::Measure;
-use stickslip::quadrature::line;
+use stickslip::quadrature::{DEGREE_10, line};
 
 const MODULUS: f64 = 30.0;
 /// Differences: truncation 1e-12 and rounding 1e-10 of a step of 1e-6.
@@ -26,7 +26,7 @@ const CELLS: [[Cells; 2]; 4] = [
     [Cells::Quads, Cells::Triangles],
     [Cells::Triangles, Cells::Quads],
 ];
-const WEIGHTS: [Weights; 2] = [Weights::Committed, Weights::Reference];
+const WEIGHTS: [Weights; 3] = [Weights::Current, Weights::Committed, Weights::Reference];
 
 fn by_points(weights: Weights) -> Options {
     let of = Options::new(Stiffness::Modulus(MODULUS));
@@ -85,11 +85,14 @@ fn tangents_are_those_of_differences_for_every_kind_on_every_kind() {
         for (slide, seed) in [(0.02, 3), (0.02, 8), (1.3, 5)] {
             for rough in [FLAT, Roughness { warp: 0.03, jitter: 0.08, slide }] {
                 let row_scale = if seed == 8 { RowScale::None } else { RowScale::Force };
-                let mut s = scene(Options { row_scale, ..by_points(weights) }, cells, rough, seed);
+                // The derivatives of a rule's sums have the rule's error on quadrilaterals that are no parallelograms.
+                let of = by_points(weights);
+                let rule = if weights == Weights::Current { &DEGREE_10 } else { of.rule };
+                let mut s = scene(Options { row_scale, rule, ..of }, cells, rough, seed);
                 s.shares().iter().zip(&mut seen).for_each(|(n, seen)| *seen += n);
                 let error = s.error();
                 assert!(error <= DIFFERENCES, "{weights:?} {seed}: {error:e}");
-                if weights == Weights::Committed {
+                if weights != Weights::Reference {
                     let (x1, x2) = (s.x1.clone(), s.x2.clone());
                     s.contact.commit(&x1, &x2, &s.lambda, None).unwrap();
                     let error = s.error();
@@ -116,22 +119,26 @@ fn tangents_of_lines_are_those_of_differences() {
 /// Newton's matrix of a plan, in two numbers of threads, is that of entries one by one.
 #[test]
 fn a_plan_has_the_same_tangent() {
-    for (threads, cells) in [(1, CELLS[0]), (3, CELLS[2])] {
-        let mut s = scene(Options { threads, ..by_points(Weights::Committed) }, cells, FLAT, 3);
+    let of = |weights: Weights| [(1, CELLS[0], weights), (3, CELLS[2], weights)];
+    for (threads, cells, weights) in of(Weights::Committed).into_iter().chain(of(Weights::Current)) {
+        let mut s = scene(Options { threads, ..by_points(weights) }, cells, FLAT, 3);
         let Scene { contact, x1, x2, lambda } = &mut s;
         let error = Point { contact, x1, x2, lambda }.plan_error();
         assert!(error <= ROUNDING, "{error:e}");
     }
 }
 
-/// Forces add up to nothing, and so do their moments where the surfaces are where the weights are of.
+/// Forces add up to nothing, and so do their moments where the surfaces are where the weights are of: those of now anywhere.
 #[test]
 fn momentum_is_kept() {
-    for (cells, seed) in CELLS.into_iter().flat_map(|c| [(c, 3), (c, 8)]) {
+    let of = |weights: Weights| CELLS.into_iter().flat_map(move |c| [(c, 3, weights), (c, 8, weights)]);
+    for (cells, seed, weights) in of(Weights::Committed).chain(of(Weights::Current)) {
         let rough = Roughness { warp: 0.03, jitter: 0.08, slide: 0.3 };
-        let mut s = scene(by_points(Weights::Committed), cells, rough, seed);
+        let mut s = scene(by_points(weights), cells, rough, seed);
         let (x1, x2) = (s.x1.clone(), s.x2.clone());
-        s.contact.commit(&x1, &x2, &s.lambda, None).unwrap();
+        if weights == Weights::Committed {
+            s.contact.commit(&x1, &x2, &s.lambda, None).unwrap();
+        }
         let r = s.contact.residual(&x1, &x2, &s.lambda, None).unwrap();
         let all = || r.nonmortar.iter().zip(&x1).chain(r.mortar.iter().zip(&x2));
         let largest = max_abs(all().flat_map(|(f, _)| f.iter().copied()));
@@ -145,13 +152,13 @@ fn momentum_is_kept() {
 /// of nodes with dual multipliers.
 #[test]
 fn closed_facets_are_those_of_nodes_and_pass_the_patch_test() {
-    for cells in CELLS {
+    for (cells, weights) in CELLS.into_iter().flat_map(|c| [(c, Weights::Reference), (c, Weights::Current)]) {
         let flat = Roughness { warp: 0.0, jitter: 0.1, slide: 0.0 };
         let m = moved(&options(), cells, flat, 4);
         let (one, two) = m.interface.surfaces();
         let (one, two) = (mesh_of(one), mesh_of(two));
         let lambda = vec![SVector::from([-0.7]); one.x.len()];
-        let of = by_points(Weights::Reference);
+        let of = by_points(weights);
         let mut points = contact::<1>(&one, &two, false, of);
         let mut nodes = contact::<1>(&one, &two, false, Options { decision: Decision::Nodes, ..of });
         let [p, n] = [&mut points, &mut nodes].map(|c| c.residual(&one.x, &two.x, &lambda, None).unwrap());
@@ -172,8 +179,13 @@ fn integrals_are_those_over_points_with_negative_sigma() {
     let one = grid(1, 1, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
     let two = grid(2, 1, [0.0, 0.0], [1.0, 1.0], 0.0, true, Cells::Quads);
     let lambda: Vec<_> = one.x.iter().map(|x| SVector::from([x.x - 0.5])).collect();
-    let mut contact = contact::<1>(&one, &two, false, by_points(Weights::Reference));
-    let r = contact.residual(&one.x, &two.x, &lambda, None).unwrap();
+    for weights in WEIGHTS {
+        half_of_a_square(&mut contact::<1>(&one, &two, false, by_points(weights)), (&one, &two), &lambda);
+    }
+}
+
+fn half_of_a_square(contact: &mut Contact<1>, (one, two): (&Mesh, &Mesh), lambda: &[SVector<f64, 1>]) {
+    let r = contact.residual(&one.x, &two.x, lambda, None).unwrap();
     let at = |x: f64, node: f64| if node == 0.0 { 1.0 - x } else { x };
     for (a, x) in one.x.iter().enumerate() {
         // int_0^(1/2) N(x) (x - 1/2) dx / 2, by Gauss points that are exact for it.
@@ -200,7 +212,7 @@ fn histories_go_on_with_the_same_bits() {
         assert!(second == other.contact.residual(&s.x1, &s.x2, &s.lambda, None).unwrap());
         s.contact.roll_back().unwrap();
         assert!(first == s.contact.residual(&s.x1, &s.x2, &s.lambda, None).unwrap());
-        assert!((first == second) == (weights == Weights::Reference));
+        assert!((first == second) == (weights == Weights::Reference), "{weights:?}");
     }
 }
 
@@ -295,6 +307,49 @@ fn an_augmentation_takes_the_place_of_r_alone() {
     }
 }
 
+/// Weights of now: both bodies turn by half a right angle within a step, and the normals with them. Forces turn along, rows stay.
+#[test]
+fn a_rigid_motion_turns_forces_and_changes_no_row() {
+    for (cells, seed) in CELLS.into_iter().flat_map(|c| [(c, 3), (c, 8)]) {
+        let rough = Roughness { warp: 0.03, jitter: 0.08, slide: 0.3 };
+        let mut s = scene(by_points(Weights::Current), cells, rough, seed);
+        let before = s.contact.residual(&s.x1, &s.x2, &s.lambda, None).unwrap();
+        let turn = nalgebra::Rotation3::from_euler_angles(0.5, -0.3, 0.6);
+        let moved = |x: &[Vec3]| x.iter().map(|x| turn * x + Vec3::new(0.4, 0.1, -0.7)).collect::<Vec<_>>();
+        let normals = (0..s.x1.len()).map(|a| turn * s.contact.normal(a).unwrap()).collect();
+        s.contact.set_normals(Some(normals)).unwrap();
+        let after = s.contact.residual(&moved(&s.x1), &moved(&s.x2), &s.lambda, None).unwrap();
+        let largest = max_abs(before.nonmortar.iter().flat_map(|f| f.iter().copied()));
+        let forces = before.nonmortar.iter().zip(&after.nonmortar).chain(before.mortar.iter().zip(&after.mortar));
+        let error = max_abs(forces.flat_map(|(b, a)| (turn * b - a).iter().copied().collect::<Vec<_>>()));
+        let rows = max_abs(before.rows.iter().zip(&after.rows).map(|(b, a)| b[0] - a[0]));
+        assert!(error.max(rows) <= 1e2 * ROUNDING * largest, "{cells:?} {seed}: {error:e}, {rows:e} of {largest:e}");
+    }
+}
+
+/// Weights of now: as a node's sigma passes 0, and with it facets become closed, cut and open, nothing jumps.
+#[test]
+fn nothing_jumps_where_facets_become_closed() {
+    for cells in CELLS {
+        let mut s = scene(by_points(Weights::Current), cells, FLAT, 8);
+        for a in 0..s.x1.len() {
+            let mut at = |lambda: f64| {
+                let mut all = s.lambda.clone();
+                all[a][0] = lambda;
+                let r = s.contact.residual(&s.x1, &s.x2, &all, None).unwrap();
+                let share = s.contact.answers().1[a].sigma.dot(&s.contact.normal(a).unwrap());
+                (r, share)
+            };
+            // sigma_A is lambda_A and what the gap has.
+            let zero = -at(0.0).1;
+            let [(before, below), (after, above)] = [-1e-9, 1e-9].map(|h| at(zero + h));
+            assert!(below < 0.0 && above > 0.0, "{below:e} {above:e}");
+            let jump = max_abs(before.nonmortar.iter().zip(&after.nonmortar).map(|(b, a)| (b - a).norm()));
+            assert!(jump <= 1e-8, "{cells:?} {a}: {jump:e}");
+        }
+    }
+}
+
 #[test]
 fn what_points_do_not_go_with_is_refused_by_name() {
     let of = by_points(Weights::Reference);
@@ -309,7 +364,10 @@ fn what_points_do_not_go_with_is_refused_by_name() {
     refused(Options { friction: Friction::Tresca, shear_limit: Some(0.2), ..of }, "not Coulomb's");
     refused(Options { friction: Friction::Tied, ..of }, "tied");
     refused(Options { basis: MultiplierBasis::Standard, ..of }, "BASIS_DUAL");
-    refused(Options { weights: Weights::Current, ..of }, "weights of now");
+    refused(Options { weights: Weights::Current, normals: Normals::Current, ..of }, "normals of now");
+    let mut raised = contact::<1>(&one, &two, false, Options { weights: Weights::Current, ..of });
+    let error = raised.set_offsets([Some(vec![0.1; 4]), None]).unwrap_err();
+    assert!(error.kind == Kind::Unsupported && error.message.contains("offsets"), "{error}");
     refused(Options { form: Form::Augmented, ..of }, "augmented");
     refused(Options { scheme: Scheme::Elements(&line::GAUSS_2), ..of }, "stand for overlaps");
     refused(Options { weak_coverage: 0.2, ..of }, "weak_coverage");

@@ -3,6 +3,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod closed_part;
 mod element_rule;
 mod golden;
 mod quadratic;

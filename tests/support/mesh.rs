@@ -25,7 +25,7 @@ impl Random {
     }
 }
 
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cells {
     Quads,
     Triangles,

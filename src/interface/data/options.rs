@@ -323,9 +323,9 @@ impl Options {
             Some(
                 "STICKSLIP_DECISION_POINTS with STICKSLIP_WEIGHTS_PERSISTENT: overlaps are kept node by node; take STICKSLIP_WEIGHTS_COMMITTED or STICKSLIP_WEIGHTS_REFERENCE, or STICKSLIP_DECISION_NODES",
             )
-        } else if self.weights == Weights::Current {
+        } else if self.follows_normals() {
             Some(
-                "STICKSLIP_DECISION_POINTS with weights of now; take STICKSLIP_WEIGHTS_COMMITTED or STICKSLIP_WEIGHTS_REFERENCE, or STICKSLIP_DECISION_NODES",
+                "STICKSLIP_DECISION_POINTS with normals of now; take STICKSLIP_NORMALS_COMMITTED, or STICKSLIP_DECISION_NODES",
             )
         } else if self.form == Form::Augmented {
             Some("STICKSLIP_DECISION_POINTS with the augmented form; take STICKSLIP_FORM_MULTIPLIER")

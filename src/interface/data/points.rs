@@ -97,9 +97,9 @@ impl Closed {
 /// The step, and the answer at a point.
 #[derive(Debug, Default)]
 pub struct Points {
-    /// Whether the members that follow are of the step at hand.
+    /// Whether the members that follow are of the step at hand; with weights of now facets and pairs are of the last positions.
     pub is_settled: bool,
-    /// Normals of all planes.
+    /// Normals of all planes: with weights of now those of t_n.
     pub planes: Vec<Vec3>,
     /// Facets, ascending.
     pub facets: Vec<PointFacet>,
@@ -109,7 +109,8 @@ pub struct Points {
     pub states: Vec<Closed>,
     /// phi times the weights of the closed part of each pair of the facets that are closed in part.
     pub closed: Vec<PairWeights>,
-    /// Per node sigma_A [F/L^2], the factor of its K, and how much of what is covered of it is closed.
+    /// Per node lambda_A and sigma_A [F/L^2], the factor of its K, and how much of what is covered of it is closed.
+    pub multipliers: Vec<f64>,
     pub sigma: Vec<f64>,
     pub factors: Vec<f64>,
     pub shares: Vec<f64>,
@@ -139,7 +140,8 @@ impl Points {
 
     /// On the heap `[bytes]`.
     pub fn bytes(&self) -> usize {
-        let reals = [&self.sigma, &self.factors, &self.shares, &self.rhat, &self.rows, &self.tractions];
+        let reals =
+            [&self.multipliers, &self.sigma, &self.factors, &self.shares, &self.rhat, &self.rows, &self.tractions];
         self.planes.capacity() * size_of::<Vec3>()
             + self.facets.capacity() * size_of::<PointFacet>()
             + self.pairs.capacity() * size_of::<PointPair>()

@@ -18,6 +18,7 @@ pub mod own;
 pub mod point_friction;
 pub mod point_memory;
 pub mod points;
+pub mod points_now;
 pub mod residual;
 pub mod respond;
 pub mod sums;

@@ -1,4 +1,5 @@
-//! Stages 2 and 3 where points decide (docs/formulation.md 16), with weights that are frozen:
+//! Stages 2 and 3 where points decide (docs/formulation.md 16); what they know of their facets with weights that are frozen (of now:
+//! `points_now.rs`):
 //!
 //! sigma_A = lambda_A + rhat_A gh_A, gh_A = nu_A . g_A / D_A with dual weights;   t(x) = min(0, sum_A N_A(x) sigma_A)
 //! f_B = int N_B t nu_e,   f_C = -int N_C t nu_e,   rhat_A c_A = int N_A t - sum_B (m_AB + (rhat_A / rhat^0_A) K_AB) lambda_B
@@ -11,6 +12,7 @@ use super::sums::NodeSums;
 use crate::dual::{Coverage, FacetSums};
 use crate::error::Result;
 use crate::geometry::{Plane, Vec3};
+use crate::interface::data::active::Active;
 use crate::interface::data::lines::{Lines, line};
 use crate::interface::data::options::Decision;
 use crate::interface::data::pairs::{PairRecord, ParentRecord, Weighted};
@@ -20,7 +22,7 @@ use crate::interface::pairing::given::Given;
 use crate::law::{NodeResponse, State};
 use crate::line::{LineFacet, LineWeights, Measure};
 use crate::memory::{self, Store};
-use crate::mortar::{MultiplierSpace, PairWeights, Segment};
+use crate::mortar::{ClosedPart, MultiplierSpace, PairWeights, ParentWeights, Segment};
 use crate::points::{STIFFNESS, of_facet, of_line};
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
 use nalgebra::SVector;
@@ -31,13 +33,26 @@ fn lines<const N: usize>(given: Given<'_, N>) -> Option<(&Parents, &Parents, &Li
     Some((one.parents.as_ref()?, two.parents.as_ref()?, one.lines()?))
 }
 
-/// The lines of a pair.
-fn line_pair<const N: usize>(given: Given<N>, (f, g): (usize, usize)) -> Option<(LineFacet, LineFacet, Measure)> {
-    let ((one, two, lines), x) = (lines(given)?, given.weighted_at());
+/// The lines of a pair at these positions.
+pub fn line_pair<const N: usize>(
+    given: Given<N>,
+    x: (&[Vec3], &[Vec3]),
+    (f, g): (usize, usize),
+) -> Option<(LineFacet, LineFacet, Measure)> {
+    let (one, two, lines) = lines(given)?;
     Some((line(&one.at(f, x.0)), line(&two.at(g, x.1)), lines.measure))
 }
 
 fn of_line_weights(weights: &LineWeights) -> PairWeights {
+    let mut n = PairWeights::default();
+    for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+        (n.ab[a][b], n.ac[a][b]) = (weights.ab[a][b], weights.ac[a][b]);
+    }
+    n
+}
+
+/// Those of two lines with two nodes.
+pub(super) fn of_parent_weights(weights: &ParentWeights) -> PairWeights {
     let mut n = PairWeights::default();
     for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
         (n.ab[a][b], n.ac[a][b]) = (weights.ab[a][b], weights.ac[a][b]);
@@ -89,13 +104,18 @@ impl Points {
                 pairs.chunk_by(|p, q| p.one == q.one).try_for_each(|pairs| self.settle_line(given, pairs))?;
             }
         }
+        self.settle_factors(given)?;
+        self.is_settled = true;
+        Ok(())
+    }
+
+    /// rhat_A / rhat^0_A.
+    pub(super) fn settle_factors<const N: usize>(&mut self, given: Given<N>) -> Result<()> {
         let factor = |a: usize| given.augmentation(a) * given.history().areas[a] / stabilising(given, a);
         self.factors.clear();
         self.factors.store_all((0..given.nodes()).map(factor))?;
         self.rhat.clear();
-        self.rhat.store_all((0..given.nodes()).map(|a| given.augmentation(a) * given.history().areas[a]))?;
-        self.is_settled = true;
-        Ok(())
+        self.rhat.store_all((0..given.nodes()).map(|a| given.augmentation(a) * given.history().areas[a]))
     }
 
     fn settle_facet<const N: usize>(&mut self, given: Given<N>, pairs: &[PairRecord]) -> Result<()> {
@@ -124,16 +144,13 @@ impl Points {
         let Some((parents, _, _)) = lines(given) else { return Ok(()) };
         let (mut mass, mut length) = (OfNodes::default(), 0.0);
         for pair in pairs {
-            let Some((own, other, measure)) = line_pair(given, (f, pair.two)) else { continue };
+            let Some((own, other, measure)) = line_pair(given, x, (f, pair.two)) else { continue };
             let whole = of_line_weights(&LineWeights::new(&own, &other, MultiplierSpace::Corner, measure));
             for (row, of_pair) in mass.iter_mut().zip(&whole.ab) {
                 row.iter_mut().zip(of_pair).for_each(|(m, n)| *m += n);
             }
             length = (own.x[1] - own.x[0]).norm();
-            let mut dual = PairWeights::default();
-            for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                (dual.ab[a][b], dual.ac[a][b]) = (pair.weights.ab[a][b], pair.weights.ac[a][b]);
-            }
+            let dual = of_parent_weights(&pair.weights);
             self.pairs.store(PointPair { two: pair.two, whole, dual })?;
             if given.setup.has_point_friction() {
                 self.friction.keep_of_lines((&own, &other), measure)?;
@@ -148,7 +165,7 @@ impl Points {
     }
 
     /// `outward`: out of the non-mortar body; `stabilisation`: over the covered area.
-    fn store_facet(
+    pub(super) fn store_facet(
         &mut self,
         (one, own): (usize, &[usize]),
         first: usize,
@@ -173,9 +190,14 @@ impl Points {
         })
     }
 
-    /// What each facet is at the nodes' sigma, with the weights of the closed parts of those that are cut.
-    fn close<const N: usize>(&mut self, given: Given<N>) -> Result<()> {
+    /// What each facet is at the nodes' sigma, with the weights of the closed parts of those that are cut. `active`: with weights of
+    /// now, whose points move, a closed part is a region of its own (docs/formulation.md 16.8).
+    fn close<const N: usize>(&mut self, given: Given<N>, active: Option<&Active>) -> Result<()> {
         let Points { facets, pairs, planes, sigma, states, closed, .. } = self;
+        let (x, planes) = match active {
+            Some(active) => ((&active.x1[..], &active.x2[..]), &active.normals),
+            None => (given.weighted_at(), &*planes),
+        };
         states.clear();
         closed.clear();
         memory::grow(states, facets.len())?;
@@ -194,18 +216,28 @@ impl Points {
             if given.setup.has_parents() {
                 for pair in of_pairs {
                     let close = |(own, other, measure): (LineFacet, LineFacet, Measure)| {
-                        let weights = LineWeights::closed(&own, &other, measure, [sigma[0], sigma[1]]);
+                        let (pair, field) = ((&own, &other, measure), [sigma[0], sigma[1]]);
+                        let weights = match active {
+                            Some(_) => LineWeights::closed_part(pair.0, pair.1, pair.2, field),
+                            None => LineWeights::closed(pair.0, pair.1, pair.2, field),
+                        };
                         scaled(&of_line_weights(&weights), facet.fade)
                     };
-                    let found = line_pair(given, (facet.one, pair.two)).map_or_else(PairWeights::default, close);
+                    let found = line_pair(given, x, (facet.one, pair.two)).map_or_else(PairWeights::default, close);
                     closed.store(found)?;
                 }
                 continue;
             }
-            let (x, rule) = (given.weighted_at(), given.setup.options.rule);
+            let rule = given.setup.options.rule;
             let frame = given.setup.nonmortar.frame(facet.one, x.0, planes)?;
             for pair in of_pairs {
-                let close = |s: Segment| scaled(&PairWeights::closed(&frame, &s, rule, &sigma), facet.fade);
+                let close = |s: Segment| {
+                    let weights = match active {
+                        Some(_) => ClosedPart::new(&frame, &s, &sigma).weights(),
+                        None => PairWeights::closed(&frame, &s, rule, &sigma),
+                    };
+                    scaled(&weights, facet.fade)
+                };
                 let segment = Segment::new(&frame, &given.setup.mortar.facet(pair.two, x.1))?;
                 closed.store(segment.map_or_else(PairWeights::default, close))?;
             }
@@ -213,15 +245,21 @@ impl Points {
         Ok(())
     }
 
-    /// Stage 2: puts the answers of points in place of the law's at every covered node.
+    /// Stage 2: puts the answers of points in place of the law's at every covered node. `active`: the pairs at the positions, with
+    /// weights of now.
     pub fn respond<const N: usize>(
         &mut self,
-        given: Given<N>,
+        (given, active): (Given<N>, Option<&Active>),
         lambda: &[SVector<f64, N>],
         sums: &[NodeSums],
         responses: &mut [NodeResponse<N>],
     ) -> Result<()> {
-        self.settle(given)?;
+        match active {
+            Some(active) => self.settle_now(given, active)?,
+            None => self.settle(given)?,
+        }
+        self.multipliers.clear();
+        self.multipliers.store_all(lambda.iter().map(|lambda| lambda[0]))?;
         memory::refill(&mut self.is_covered, false, lambda.len())?;
         for of_nodes in [&mut self.sigma, &mut self.rows, &mut self.shares, &mut self.tractions] {
             memory::refill(of_nodes, 0.0, lambda.len())?;
@@ -234,7 +272,7 @@ impl Points {
             (response.state, response.traction) = (State::Gap, Vec3::zeros());
             response.sigma = normal * self.sigma[a];
         }
-        self.close(given)?;
+        self.close(given, active)?;
         self.sum_up(lambda)?;
         for (a, response) in responses.iter_mut().enumerate().filter(|(a, _)| self.is_covered[*a]) {
             response.row = SVector::from_element(self.rows[a] / self.rhat[a]);

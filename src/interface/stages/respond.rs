@@ -5,6 +5,7 @@ use super::node::{count_of, is_left_out, kept_overlap, node};
 use super::own::OwnAnswers;
 use super::sums::NodeSums;
 use crate::error::{Error, Kind, Result};
+use crate::interface::data::active::Active;
 use crate::interface::data::counters::NodeCounts;
 use crate::interface::data::extent::Scope;
 use crate::interface::data::points::Points;
@@ -35,9 +36,9 @@ impl<const N: usize> Default for Responses<N> {
     }
 }
 
-/// The law's answers to the sums of every node, in place of what was in `answers`.
+/// The law's answers to the sums of every node, in place of what was in `answers`. `active`: the pairs there, with weights of now.
 pub fn respond<const N: usize>(
-    given: Given<N>,
+    (given, active): (Given<N>, Option<&Active>),
     lambda: &[SVector<f64, N>],
     sums: &[NodeSums],
     scope: Scope,
@@ -68,11 +69,11 @@ pub fn respond<const N: usize>(
         carry(given, lambda, (sums, carried), responses, own)?;
     }
     if given.setup.decides_at_points() {
-        if given.setup.has_point_friction() {
+        if N == 3 {
             points.respond_with_friction(given, lambda, sums, responses)?;
             memory::recopy(&mut own.states, &points.friction.states)?;
         } else {
-            points.respond(given, lambda, sums, responses)?;
+            points.respond((given, active), lambda, sums, responses)?;
         }
     }
     for (a, response) in responses.iter().enumerate() {

@@ -413,11 +413,14 @@ pub fn of_nodes<const N: usize>(
 ) -> Result<()> {
     let Task { given, pairs, extent, numbers, .. } = task;
     if given.setup.decides_at_points() {
-        let numbers = numbers.map(|n| PointNumbers { points: &n.responses.points, sums: n.sums });
-        if given.setup.has_point_friction() {
+        let normals = task.normals;
+        let numbers =
+            numbers.map(|n| PointNumbers { points: &n.responses.points, sums: n.sums, normals, active: n.active });
+        // With friction there are three multipliers a node, and only there: known when this is compiled.
+        if N == 3 {
             return point_friction::blocks((given, pairs), numbers.as_ref(), emitter);
         }
-        return points::blocks((given, task.normals, pairs), numbers.as_ref(), emitter);
+        return points::blocks((given, pairs), numbers.as_ref(), emitter);
     }
     let turns = numbers.and_then(|n| n.turns.as_ref());
     let answers = numbers.map(Numbers::answers);

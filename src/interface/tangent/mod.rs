@@ -15,6 +15,8 @@ pub mod offsets;
 pub mod parent_table;
 pub mod parents;
 pub mod point_friction;
+pub mod point_motion;
+pub mod point_numbers;
 pub mod points;
 pub mod star;
 pub mod turning;

@@ -1,31 +1,26 @@
-//! The tangent where points decide, with weights that are frozen (docs/formulation.md 16.4). Tractions at points depend on sigma_A of
+//! The tangent where points decide (docs/formulation.md 16.4). Tractions at points depend on sigma_A of
 //! a facet's nodes, and sigma_A = lambda_A + rhat_A nu_A . g_A / D_A on all nodes of the facets around A. So blocks are sums over
 //! nodes A of products: of what sigma_A acts on, and of what it depends on. Where sigma = 0 the tractions vanish: the border's motion
 //! adds nothing. Around nodes whose facets are all open nothing depends on sigma, and the products are left out.
 
 use super::emission::{Dependence, Emitter, Place};
+use super::point_motion::{Motions, of_facets};
+pub use super::point_numbers::PointNumbers;
 use super::star::{Around, Star};
 use super::union::Pairs;
 use crate::error::Result;
 use crate::geometry::Vec3;
-use crate::interface::data::points::{OfNodes, Points};
+use crate::interface::data::points::OfNodes;
 use crate::interface::pairing::given::Given;
-use crate::interface::stages::sums::NodeSums;
 use crate::memory::{self, Store};
-
-/// What the numbers are made of.
-pub struct PointNumbers<'a> {
-    pub points: &'a Points,
-    pub sums: &'a [NodeSums],
-}
 
 /// A node that sigma_A acts on and depends on.
 #[derive(Clone, Copy, Debug, Default)]
 struct Neighbour {
     /// d force / d sigma_A.
     force: Vec3,
-    /// d sigma_A / dx over nu_A.
-    slope: f64,
+    /// d sigma_A / dx.
+    slope: Vec3,
 }
 
 /// A multiplier whose row sigma_A or lambda_A is in.
@@ -56,14 +51,24 @@ impl OfNode {
         memory::refill(&mut self.rows, Row::default(), self.star.rows.len())
     }
 
-    /// Adds what a facet has of A.
-    fn add<const N: usize>(&mut self, given: Given<N>, a: usize, f: usize, numbers: &PointNumbers) {
-        let ((one, two), PointNumbers { points, sums }) = (given.setup.surfaces(), numbers);
+    /// Adds what the k-th facet has of A. `motions`: what sigma_A depends on with weights that change.
+    fn add<const N: usize>(
+        &mut self,
+        given: Given<N>,
+        a: usize,
+        (k, around): (usize, &Around),
+        (numbers, motions): (&PointNumbers, Option<&Motions>),
+    ) {
+        let ((one, two), f) = (given.setup.surfaces(), around.facets[k]);
+        let PointNumbers { points, sums, normals, .. } = numbers;
         let Ok(at) = points.facets.binary_search_by_key(&f, |facet| facet.one) else { return };
         let facet = &points.facets[at];
         let Some(l) = facet.nodes().iter().position(|&b| b == a) else { return };
         let is_covered = points.is_covered[a];
-        let slope = if is_covered { points.rhat[a] / sums[a].coverage } else { 0.0 };
+        let slope = match motions {
+            None if is_covered => normals[a] * (points.rhat[a] / sums[a].coverage),
+            _ => Vec3::zeros(),
+        };
         for (k, &b) in facet.nodes().iter().enumerate().filter(|(_, b)| points.is_covered[**b]) {
             if let Some(row) = self.star.row(b) {
                 self.rows[row].left += facet.mass[k][l] + points.factors[b] * facet.stabilisation[k][l];
@@ -71,6 +76,12 @@ impl OfNode {
         }
         if !is_covered {
             return;
+        }
+        if let Some(motions) = motions {
+            let nodes = || facet.nodes().iter().copied().chain(around.mortar(k).iter().map(|c| one.len() + c));
+            for (node, slope) in nodes().zip(motions.slopes(k, l, nodes().count())) {
+                self.neighbours[self.star.place(node)].slope += slope;
+            }
         }
         let mut room = OfNodes::default();
         let mass = points.states[at].mass(facet, &points.closed, &mut room);
@@ -96,7 +107,7 @@ impl OfNode {
     }
 
     /// Puts what sigma_A depends on in its order.
-    fn sort<const N: usize>(&mut self, (a, nu): (usize, Vec3), emitter: &Emitter<N>) -> Result<()> {
+    fn sort<const N: usize>(&mut self, a: usize, emitter: &Emitter<N>) -> Result<()> {
         let multiplier = self.neighbours.len();
         let place = |k: usize| self.star.nodes.get(k).map_or(Place::Multiplier(a), |node| Place::Displacement(*node));
         self.order.clear();
@@ -104,7 +115,7 @@ impl OfNode {
         self.order.sort_unstable();
         self.columns.clear();
         self.columns.store_all(self.order.iter().map(|&(key, k)| (key, place(k))))?;
-        let slope = |k: usize| self.neighbours.get(k).map_or(Vec3::zeros(), |n| nu * n.slope);
+        let slope = |k: usize| self.neighbours.get(k).map_or(Vec3::zeros(), |n| n.slope);
         self.slopes.clear();
         self.slopes.store_all(self.order.iter().map(|&(_, k)| slope(k).into()))
     }
@@ -113,11 +124,11 @@ impl OfNode {
     fn emit<const N: usize>(
         &mut self,
         given: Given<N>,
-        (a, nu, is_covered): (usize, Vec3, Option<bool>),
+        (a, is_covered): (usize, Option<bool>),
         emitter: &mut Emitter<N>,
     ) -> Result<()> {
         let areas = &given.history().areas;
-        self.sort((a, nu), emitter)?;
+        self.sort(a, emitter)?;
         let size = self.slopes.iter().flatten().map(|slope| slope.abs()).sum();
         let of = Dependence { columns: &self.columns, slopes: &self.slopes, size };
         for (&node, row) in self.star.nodes.iter().zip(&self.neighbours) {
@@ -143,11 +154,15 @@ impl OfNode {
 
 /// All blocks.
 pub fn blocks<const N: usize>(
-    (given, normals, pairs): (Given<N>, &[Vec3], Pairs),
+    (given, pairs): (Given<N>, Pairs),
     numbers: Option<&PointNumbers>,
     emitter: &mut Emitter<N>,
 ) -> Result<()> {
     let around = Around::of(given, pairs)?;
+    let motions = match numbers.and_then(|numbers| Some((numbers, numbers.active?))) {
+        Some(numbers) => Some(of_facets(given, numbers, &around, emitter)?),
+        None => None,
+    };
     let mut of_node = OfNode { star: Star::of(given)?, ..OfNode::default() };
     for a in (0..given.nodes()).filter(|&a| given.setup.nonmortar.has_row(a)) {
         if around.around(a).is_empty() {
@@ -159,9 +174,10 @@ pub fn blocks<const N: usize>(
         of_node.begin(given, a, &around)?;
         let is_covered = numbers.map(|numbers| numbers.points.is_covered[a]);
         if let Some(numbers) = numbers {
-            around.around(a).iter().for_each(|&k| of_node.add(given, a, around.facets[k], numbers));
+            let numbers = (numbers, motions.as_ref());
+            around.around(a).iter().for_each(|&k| of_node.add(given, a, (k, &around), numbers));
         }
-        of_node.emit(given, (a, normals[a], is_covered), emitter)?;
+        of_node.emit(given, (a, is_covered), emitter)?;
     }
     Ok(())
 }
