@@ -242,6 +242,7 @@ test:
 test-long:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory cmake-build TESTS=ON
+	@$(LOCKED) cmake --build $(BUILD) --parallel $(JOBS) --target sanitize
 	$(SAY) "The tests that take longer (ctest)"
 	@cd $(BUILD) && ctest --output-on-failure --no-tests=error --parallel $(JOBS) -L long
 
