@@ -64,7 +64,7 @@ static void histories(void) {
   memcpy(spoilt.integers + second, h.before.integers + first, 2 * sizeof(int64_t));
   SEALED_MISMATCH("sorted");
   /* The layouts of older versions, by name. */
-  for (int layout = 1; layout <= 4; ++layout) {
+  for (int layout = 1; layout <= 5; ++layout) {
     spoilt = h.before;
     spoilt.integers[0] = 0x571C00 + layout;
     SEALED_MISMATCH("older library version");

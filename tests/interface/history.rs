@@ -286,7 +286,7 @@ fn a_restart_may_change_what_a_history_does_not_mean() {
 fn a_history_of_an_older_layout_is_refused_by_name() {
     let mut scene = moved(&options(), QUADS, ROUGH, 3);
     let (mut integers, reals) = scene.interface.export_history().unwrap();
-    for layout in 0x57_1C_01..0x57_1C_05 {
+    for layout in 0x57_1C_01..0x57_1C_06 {
         integers[0] = layout;
         seal_history(&mut integers, &reals);
         let error = scene.interface.import_history(&integers, &reals).unwrap_err();

@@ -2,8 +2,7 @@
 //!
 //! Integers: the layout, the checksum (`checksum.rs`), the meaning (`meaning.rs`), commits, nodes of both sides; then lists,
 //! each after its length: the pairs' facets. Reals: x1, x2, normals, gaps, slip, gaps of facets, areas, coverage, what a law of
-//! one's own or points remember, the positions that weights are of where points decide with weights that are frozen for good, the
-//! pairs' weights. What is not kept (`Keeps`) takes no room.
+//! one's own or points remember, the positions that weights are of where they are frozen for good, the pairs' weights. What is not kept (`Keeps`) takes no room.
 
 use super::checksum::{self, PLACE};
 use super::facet_gaps::{FacetGaps, REALS_PER_FACET};
@@ -19,10 +18,10 @@ use crate::memory::{self, Store, Stored};
 use crate::mortar::{NonmortarFrame, PairWeights, ParentWeights};
 use crate::shape::{MAX_CORNERS, MAX_NODES, MAX_PARENT_NODES};
 
-/// First integer: "stickslip history", layout 5.
-const LAYOUT: i64 = 0x57_1C_05;
-/// First integers of the layouts before, which had neither a checksum nor a meaning.
-const OLD_LAYOUTS: std::ops::RangeInclusive<i64> = 0x57_1C_01..=0x57_1C_04;
+/// First integer: "stickslip history", layout 6.
+const LAYOUT: i64 = 0x57_1C_06;
+/// First integers of the layouts before.
+const OLD_LAYOUTS: std::ops::RangeInclusive<i64> = 0x57_1C_01..=0x57_1C_05;
 /// Integers before the lists.
 const HEADER: usize = 2 + meaning::LENGTH + 3;
 /// A pair's weights n_AB and n_AC.
@@ -39,31 +38,27 @@ pub struct Host<'a> {
     /// Reals that the law remembers of all nodes; `None`: points remember, and how many there are follows from the pairs.
     states: Option<usize>,
     meaning: [i64; meaning::LENGTH],
-    /// Whether the weights are frozen for good.
+    /// Whether the weights are frozen for good: then the positions that they are of are kept.
     frozen: bool,
-    /// Whether the positions that they are of are kept: facets that a border cuts are integrated anew.
-    keeps_places: bool,
 }
 
 impl<'a> Host<'a> {
     /// What an interface is, whose law remembers so many reals.
     pub fn of<const N: usize>(setup: &'a Setup<N>, states: usize) -> Host<'a> {
         let (options, own, surfaces) = (&setup.options, setup.own.as_ref(), setup.surfaces());
-        let frozen = options.effective_weights() == Weights::Reference;
         Host {
             surfaces,
             keeps: Keeps::of(options),
             states: (!setup.has_point_friction()).then_some(states),
             meaning: meaning::of(options, own, surfaces),
-            frozen,
-            keeps_places: frozen && setup.decides_at_points(),
+            frozen: options.effective_weights() == Weights::Reference,
         }
     }
 
     /// Reals of the positions that weights are of.
     fn places(&self) -> usize {
         let (one, two) = self.surfaces;
-        if self.keeps_places { 3 * (one.len() + two.len()) } else { 0 }
+        if self.frozen { 3 * (one.len() + two.len()) } else { 0 }
     }
 }
 
@@ -119,7 +114,7 @@ impl History {
         reals.store_all(self.areas.iter().copied())?;
         reals.store_all(self.coverage.iter().copied())?;
         reals.store_all(self.states.iter().copied())?;
-        if host.keeps_places {
+        if host.frozen {
             let (x1, x2) = self.weighted_at(Weights::Reference, host.surfaces);
             reals.store_all(x1.iter().chain(x2).flat_map(|v| v.iter().copied()))?;
         }
@@ -159,8 +154,7 @@ impl History {
         let facet_gaps = FacetGaps::from_reals(take(&mut rest, REALS_PER_FACET * kept))?;
         let (areas, coverage) = (memory::copied(take(&mut rest, n1))?, memory::copied(take(&mut rest, n1))?);
         let states = memory::copied(take(&mut rest, states))?;
-        let at =
-            if host.keeps_places { [vectors(&mut rest, n1)?, vectors(&mut rest, n2)?] } else { Default::default() };
+        let at = if frozen { [vectors(&mut rest, n1)?, vectors(&mut rest, n2)?] } else { Default::default() };
         let (mut pairs, mut parents) = (Vec::new(), Vec::new());
         for f in facets.chunks_exact(2) {
             let index = |v: i64, n: usize| usize::try_from(v).ok().filter(|&i| i < n);
@@ -199,7 +193,7 @@ impl History {
             parents,
             integrated,
         };
-        if host.keeps_places {
+        if frozen {
             history.freeze_at(host.surfaces, (&at[0], &at[1]))?;
         }
         check_contents(&history, (nonmortar, mortar), frozen)?;
@@ -217,7 +211,7 @@ fn check_header<'a>((integers, reals): (&'a [i64], &[f64]), host: &Host) -> Resu
     }
     let (layout, (nonmortar, mortar)) = (integers[0], host.surfaces);
     if OLD_LAYOUTS.contains(&layout) {
-        let text = "the history has the layout of an older library version, without a checksum; this one reads layout 5: \
+        let text = "the history has the layout of an older library version; this one reads layout 6: \
                     go on with the version that wrote it, or start anew";
         return mismatch(text);
     }
