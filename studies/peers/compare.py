@@ -1,8 +1,9 @@
 """The same problems in other programs, on the same meshes: `make compare`. compare.py --build DIR [--renew].
 
 Errors are of nodal contact forces, which follow from each program's displacements by the same elements; on hexahedra of 20
-nodes, of the whole force. Hertz' line has ten loads, which move the border of the contact through a facet. A program that
-is not installed is left out with a word; one that finds no answer is shown with what it said. Seconds are wall time of
+nodes, of the whole force. Hertz' line has ten loads, which move the border of the contact through a facet; its pressure is
+compared with Hertz' formula and with fine meshes (fine_line.py), of the theory that each program has and of the deformed
+bodies. A program that is not installed is left out with a word; one that finds no answer is shown with what it said. Seconds are wall time of
 each program's own solution, with whatever linear solver it brings, and include its start: for orders of magnitude.
 What has been run is kept. --renew: puts the tables into docs/accuracy.md.
 """
@@ -16,6 +17,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
+import fine_line  # noqa: E402
 import folders  # noqa: E402  (puts the others on the path)
 import formulas  # noqa: E402
 import friction_checks as friction  # noqa: E402
@@ -31,6 +33,8 @@ MARKS = ("<!-- compare -->", "<!-- /compare -->")
 FACETS, HALF_WIDTH, TRAVEL = (5, 10, 20), 0.68, 0.1828
 # They move the border through one facet.
 LOADS = 10
+# The whole load in one step takes minutes each.
+LEFT_OUT = {(20, "stickslip, points")}
 # The others take the contact's geometry from the undeformed bodies.
 SMALL = ("-contact_weights", "reference")
 DUAL = ("-contact_basis", "dual")
@@ -46,6 +50,23 @@ LAWS = {
     "stickslip, small displacements, points": (*SMALL, *POINTS),
 }
 HERTZ_LAWS = {**LAWS, "stickslip, points, four steps": (*STEPPED, *POINTS)}
+# What each takes for the contact's geometry on Hertz' line, as fine_line.py has it. The forces tell: their direction is that of
+# the normals, and how far they act from each other along x on the two sides says which points touch, to three digits.
+# In four steps normals are undeformed where nothing touched before the last one.
+DEFORMED = "current"
+THEORIES = {
+    "stickslip, defaults": "start",
+    "stickslip, dual": "start",
+    "stickslip, points": "current",
+    "stickslip, small displacements": "non-mortar",
+    "stickslip, small displacements, dual": "non-mortar",
+    "stickslip, small displacements, points": "non-mortar",
+    "stickslip, points, four steps": "current",
+    "CalculiX, surface to surface (penalty)": "mortar",
+    "CalculiX, mortar": "non-mortar",
+    "GetFEM, nodes against faces, augmented Lagrangian": "mortar",
+    "Kratos, mortar, augmented Lagrangian": "current",
+}
 OURS = ("-output_vtu", "last", "-output_csv", "last", "-output_quiet", "true")
 
 
@@ -105,15 +126,39 @@ def patch_error(case, displacement):
     return np.abs(force[:, 2] - exact).max() / exact.max()
 
 
-def hertz_error(case, displacement):
+def hertz_line(case, displacement):
+    """The non-mortar side seen along x, as scene.py's `Run.line`"""
     nodes, force = contact_forces(case, displacement)
     x, first, group = np.unique(np.round(case.points[nodes, 0], 9), return_index=True, return_inverse=True)
     thickness = np.ptp(case.points[nodes, 1])
     total = np.stack([np.bincount(group, weights=force[:, i]) / thickness for i in range(3)], axis=1)
     half = np.hypot(np.diff(x), np.diff(case.points[nodes][first, 2])) / 2
-    line = Line(x, total, np.append(half, 0) + np.append(0, half), np.full(len(x), "slip"))
-    hertz = formulas.LineContact(total[:, 2].sum(), friction.LINE_MODULUS, friction.LINE_RADIUS)
-    return friction.profile_error(line, line.traction[:, 2], hertz.pressure)
+    return Line(x, total, np.append(half, 0) + np.append(0, half), np.full(len(x), "slip"))
+
+
+class Yardsticks:
+    """Errors of Hertz' line at equal force, against his formula and fine meshes; `apart`: the most that two of these differ"""
+
+    def __init__(self, folder):
+        self.fine, self.coarser = (fine_line.FineLine(folder, facets) for facets in (fine_line.FACETS, fine_line.FACETS // 2))
+        self.apart = 0.0
+
+    def errors(self, case, displacement, theory):
+        """(against Hertz' formula, against the fine mesh of `theory`, against that of the deformed bodies)"""
+        line = hertz_line(case, displacement)
+        force = line.force[:, 2].sum()
+        hertz = formulas.LineContact(force, friction.LINE_MODULUS, friction.LINE_RADIUS)
+        own, deformed = (self.against(line, force, of) for of in (theory, DEFORMED))
+        return friction.profile_error(line, line.traction[:, 2], hertz.pressure), own, deformed
+
+    def against(self, line, force, theory):
+        # The fine mesh's pressure is over lengths along x, tractions are over those along the facets.
+        flat = np.append(np.diff(line.x) / 2, 0) + np.append(0, np.diff(line.x) / 2)
+        fine, coarser = (formulas.nodal_mean(of.profile(theory, force), line.x) * flat / line.length
+                         for of in (self.fine, self.coarser))
+        mean = lambda values: np.sqrt((line.length * values**2).sum() / (line.length * fine**2).sum())
+        self.apart = max(self.apart, mean(coarser - fine))
+        return mean(line.traction[:, 2] - fine)
 
 
 def folder_of(driver, case, name):
@@ -150,11 +195,16 @@ def patch_rows(driver, missing):
     return rows_of(driver, "patch test, 3 x 3 on 4 x 5 facets", case, ours, PROGRAMS, error, missing)
 
 
+def laws_of(facets):
+    return [law for law in HERTZ_LAWS if (facets, law) not in LEFT_OUT]
+
+
 def hertz_case(driver, facets, travel, name):
     """(case, runs of our laws by name) of the half-cylinders pressed together by `travel`."""
     h = HALF_WIDTH / facets
     options = (*friction.line_mesh(h), *friction.FRICTIONLESS, "-press_value", f"0,0,{-travel:.10g}", *OURS)
-    runs = {law: driver.run("cattaneo_line", *options, *of, label=f"{name}_{k}") for k, (law, of) in enumerate(HERTZ_LAWS.items())}
+    runs = {law: driver.run("cattaneo_line", *options, *of, label=f"{name}_{k}")
+            for k, (law, of) in enumerate(HERTZ_LAWS.items()) if law in laws_of(facets)}
     first = next(iter(runs.values()))
     points = first.mesh()[0]
     radius = lambda x, z: np.hypot(x[:, 0], x[:, 2] - z)
@@ -167,27 +217,28 @@ def hertz_case(driver, facets, travel, name):
     return case_of(name, first, 200, 0.3, foot, under, supports), runs
 
 
-def mean_row(facets, name, found, failures):
-    """`found`: (error, iterations, seconds) of each load that has an answer."""
+def mean_row(facets, name, theory, found, failures):
+    """`found`: (errors, iterations, seconds) of each load that has an answer."""
     failed = f"{len(failures)} of {LOADS}: {failures[0]}" if failures else ""
     if not found:
-        return [str(facets), name, "", "", "", failed]
-    errors, iterations, seconds = np.transpose(found)
-    return [str(facets), name, f"{100 * errors.mean():.2g} ({100 * errors.max():.2g})", f"{iterations.mean():.1f}",
-            f"{seconds.mean():.1f}", failed]
+        return [str(facets), name, "", "", theory, "", "", "", failed]
+    errors, iterations, seconds = (np.array(column) for column in zip(*found))
+    hertz, own, deformed = (f"{100 * each.mean():.2g} ({100 * each.max():.2g})" for each in errors.T)
+    return [str(facets), name, hertz, own, theory, deformed, f"{iterations.mean():.1f}", f"{seconds.mean():.1f}", failed]
 
 
-def hertz_rows(driver, missing):
+def hertz_rows(driver, missing, yardsticks):
     """Hertz' line: a row for each number of facets and each program, means over the loads."""
     for facets in FACETS:
         cases = []
         for k, wide in enumerate((facets - 0.5 + np.arange(LOADS) / LOADS) / facets):
             # The travel goes with the square of the half-width, nearly.
             cases.append(hertz_case(driver, facets, TRAVEL * wide**2, f"hertz_{facets}_{k}"))
-        for law in HERTZ_LAWS:
+        for law in laws_of(facets):
+            errors = lambda case, run: yardsticks.errors(case, run.mesh()[2], THEORIES[law])
             runs = [(case, runs[law]) for case, runs in cases]
-            found = [(hertz_error(case, r.mesh()[2]), r.newton_iterations, r.summary["seconds"]["total"]) for case, r in runs]
-            yield mean_row(facets, law, found, [])
+            found = [(errors(case, r), r.newton_iterations, r.summary["seconds"]["total"]) for case, r in runs]
+            yield mean_row(facets, law, THEORIES[law], found, [])
         for name, program in PROGRAMS:
             found, failures, version = [], [], ""
             for case, _ in cases:
@@ -200,9 +251,10 @@ def hertz_rows(driver, missing):
                     failures.append(said(failure))
                 else:
                     version = f", {answer.version}"
-                    found.append((hertz_error(case, answer.displacement), answer.iterations, answer.seconds))
+                    errors = yardsticks.errors(case, answer.displacement, THEORIES[name])
+                    found.append((errors, answer.iterations, answer.seconds))
             if found or failures:
-                yield mean_row(facets, name + version, found, failures)
+                yield mean_row(facets, name + version, THEORIES[name], found, failures)
 
 
 def quadratic(driver, missing):
@@ -227,13 +279,18 @@ def compare(build, renew):
     driver.output.mkdir(parents=True, exist_ok=True)
     missing = set()
     single = collected(chain(patch_rows(driver, missing), quadratic(driver, missing)))
-    means = collected(hertz_rows(driver, missing))
+    yardsticks = Yardsticks(driver.output)
+    means = collected(hertz_rows(driver, missing, yardsticks))
     for what in sorted(missing):
         print(f"left out, not installed: {what}")
     tables = [(["problem", "program", "error", "Newton iterations", "seconds", "failure"], single),
-              (["facets", "program", "error in per cent, mean (worst)", "Newton iterations", "seconds", "failure"], means)]
+              (["facets", "program", "error in per cent against Hertz' formula, mean (worst)",
+                "against a fine mesh of its own theory", "its theory", "against a fine mesh, deformed bodies",
+                "Newton iterations", "seconds", "failure"], means)]
     titles = "**One load**", f"**Hertz' line, {LOADS} loads that move the border through a facet**"
     text = "\n\n".join(f"{title}\n\n{study_page.markdown(table)}" for title, table in zip(titles, tables))
+    text += (f"\n\nFine meshes of {fine_line.FACETS // 2} and {fine_line.FACETS} facets over the half-width differ by "
+             f"{100 * yardsticks.apart:.2g} % at most.")
     (driver.output / "compare.md").write_text(text + "\n")
     if renew:
         put_between(DOCUMENT, MARKS, f"\n\n{text}\n\n")
