@@ -88,10 +88,6 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_MORTAR_RIGID = 1
   integer(c_int32_t), parameter :: STICKSLIP_MORTAR_ANALYTIC = 2
 
-  ! Arms of forces on a rigid body: those at the motion; the means of those at t_n and at the motion, for dynamics.
-  integer(c_int32_t), parameter :: STICKSLIP_RIGID_ARMS_END = 0
-  integer(c_int32_t), parameter :: STICKSLIP_RIGID_ARMS_MIDDLE = 1
-
   integer(c_int32_t), parameter :: STICKSLIP_SHAPE_PLANE = 0
   integer(c_int32_t), parameter :: STICKSLIP_SHAPE_SPHERE = 1
   integer(c_int32_t), parameter :: STICKSLIP_SHAPE_CYLINDER = 2
@@ -215,6 +211,10 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_ADJUST_MOVED = 2
   integer(c_int32_t), parameter :: STICKSLIP_SIDE_NONMORTAR = 0
   integer(c_int32_t), parameter :: STICKSLIP_SIDE_MORTAR = 1
+
+  ! Arms of forces on a rigid body: those at the motion; the means of those at t_n and at the motion, for dynamics.
+  integer(c_int32_t), parameter :: STICKSLIP_RIGID_ARMS_END = 0
+  integer(c_int32_t), parameter :: STICKSLIP_RIGID_ARMS_MIDDLE = 1
 
   ! Laws in place of Coulomb's; the most numbers a node that a law may remember.
   integer(c_int32_t), parameter :: STICKSLIP_LAW_COULOMB = 0

@@ -105,9 +105,13 @@ impl<'a> ClosedPart<'a> {
     fn each(&self, to: &mut dyn FnMut([f64; 3])) {
         let (vertices, mut breaks, mut n) = (self.segment.polygon.vertices(), [0.0; BREAKS], 0);
         for (k, &p) in vertices.iter().enumerate() {
-            let q = vertices[(k + 1) % vertices.len()] - p;
-            let crossings = self.crossings(p, q).into_iter().flatten().map(|[xi, _]| xi);
-            for xi in std::iter::once(self.frame.map.inverse([p.x, p.y]).xi).chain(crossings) {
+            let q = vertices[(k + 1) % vertices.len()];
+            let [from, end] = [p, q].map(|y| self.frame.map.inverse([y.x, y.y]).xi);
+            // The other root may lie outside of the facet, where its map folds: then it is no point of the edge, between whose ends xi grows
+            // or falls.
+            let is_on_edge = |xi: &f64| (from.min(end)..=from.max(end)).contains(xi);
+            let crossings = self.crossings(p, q - p).into_iter().flatten().map(|[xi, _]| xi).filter(is_on_edge);
+            for xi in std::iter::once(from).chain(crossings) {
                 breaks[n] = xi;
                 n += 1;
             }

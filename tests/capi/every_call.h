@@ -162,8 +162,9 @@ static inline int32_t every_constraints(every *c) {
   const int64_t node = 4;
   return stickslip_interface_set_constraints(c->h.s.interface, 1, &node, across);
 }
-/* How the offset of a carried node turns is not in the tangent: refused. */
+/* How the offset of a carried node turns is not in the tangent, and what surfaces overlap by may not count as closed: refused. */
 static inline int every_offsets_unsupported(const stickslip_options *o) {
+  if (o->weights == STICKSLIP_WEIGHTS_PERSISTENT) return 1;
   const int carries = o->weak_coverage > 0.0 || (o->weak_coverage == 0.0 && o->multiplier_basis == STICKSLIP_BASIS_DUAL);
   return o->normals == STICKSLIP_NORMALS_CURRENT && o->friction != STICKSLIP_FRICTION_NONE && carries;
 }
