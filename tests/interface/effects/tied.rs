@@ -108,9 +108,9 @@ fn a_commit_changes_nothing() {
         let (integers, reals) = c.export_history().unwrap();
         let (n1, n2, pairs) = (x1.len(), x2.len(), c.history().pairs.len());
         assert!(c.history().slip.is_empty() && c.history().gap.len() == n1 && pairs > 0);
-        // x1, normals, gaps, areas, coverage; x2; gaps of facets; weights.
+        // x1, normals, gaps, areas, coverage; x2; gaps of facets; where weights are of; weights.
         let facets = c.surfaces().0.facets.len();
-        assert_eq!(reals.len(), n1 * (3 + 3 + 3 + 1 + 1) + 3 * n2 + 12 * facets + 32 * pairs);
+        assert_eq!(reals.len(), n1 * (3 + 3 + 3 + 1 + 1 + 3) + 6 * n2 + 12 * facets + 32 * pairs);
         let mut restarted: Contact<3> = contact(&mesh_of(c.surfaces().0), &mesh_of(c.surfaces().1), false, tied(form));
         restarted.import_history(&integers, &reals).unwrap();
         assert_eq!(bits(&restarted.residual(&x1, &x2, &lambda, None).unwrap()), bits(&before.0));
