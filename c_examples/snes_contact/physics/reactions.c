@@ -2,35 +2,50 @@
  * what is left of one that was let go. */
 #include "physics/timed.h"
 
-/* This rank's entries of one support: those that an earlier one holds, too. `first`: the first support of each entry, -1: none yet */
-static PetscErrorCode add_shared(const Physics *physics, PetscInt s, const PetscScalar *f, PetscInt first[], PetscBool shared[], PetscReal twice[3])
+PetscErrorCode support_visit(const Physics *physics, const Support *support, EntryVisit action, void *context)
 {
-  const Support  *support = &physics->supports[s];
+  const Mesh     *mesh = physics->mesh;
   char            label[2 * NAME_LENGTH];
   const PetscInt *points;
   PetscInt        n, at;
   IS              is;
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(label, sizeof(label), "support.%s", support->name));
-  PetscCall(DMGetStratumIS(physics->mesh->dm, label, 1, &is));
+  PetscCall(DMGetStratumIS(mesh->dm, label, 1, &is));
   if (!is) PetscFunctionReturn(PETSC_SUCCESS); /* no such vertex on this rank */
   PetscCall(ISGetLocalSize(is, &n));
   PetscCall(ISGetIndices(is, &points));
   for (PetscInt k = 0; k < n; k++) {
+    const PetscBool owned = (PetscBool)!physics->unknowns.ghost[mesh->here[points[k]]];
     PetscCall(PetscSectionGetOffset(physics->unknowns.section, points[k], &at));
     for (int i = 0; i < 3; i++) {
-      if (!(support->mask & (1 << i))) continue;
-      if (first[at + i] < 0) {
-        first[at + i] = s;
-        continue;
-      }
-      shared[physics->n_supports * s + first[at + i]] = PETSC_TRUE;
-      twice[i] += PetscRealPart(f[at + i]);
+      if (support->mask & (1 << i)) action(support, at + i, i, owned, context);
     }
   }
   PetscCall(ISRestoreIndices(is, &points));
   PetscCall(ISDestroy(&is));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What supports before this one hold. */
+typedef struct {
+  PetscInt           support; /* its number */
+  const PetscScalar *f;
+  PetscInt          *first; /* of each entry the first support, -1: none yet */
+  PetscBool         *shared; /* of this support, by the others */
+  PetscReal         *twice;
+} Shared;
+
+static void add_shared(const Support *support, PetscInt entry, int component, PetscBool owned, void *context)
+{
+  Shared *of = context;
+  (void)support, (void)owned;
+  if (of->first[entry] < 0) {
+    of->first[entry] = of->support;
+    return;
+  }
+  of->shared[of->first[entry]] = PETSC_TRUE;
+  of->twice[component] += PetscRealPart(of->f[entry]);
 }
 
 /* `shared` (n_supports x n_supports): does a support count forces that this earlier one counts, too? `twice`: what is so counted more
@@ -49,7 +64,8 @@ PetscErrorCode supports_shared(const Physics *physics, PetscBool shared[], Petsc
   PetscCall(VecGetArrayRead(physics->f_local, &f));
   for (PetscInt s = 0; s < n; s++) {
     const Support *support = &physics->supports[s];
-    if (support->rigid < 0 && !(support->timed && !support->active)) PetscCall(add_shared(physics, s, f, first, shared, twice));
+    Shared         of      = {.support = s, .f = f, .first = first, .shared = shared + n * s, .twice = twice};
+    if (support->rigid < 0 && !(support->timed && !support->active)) PetscCall(support_visit(physics, support, add_shared, &of));
   }
   PetscCall(VecRestoreArrayRead(physics->f_local, &f));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, shared, (PetscMPIInt)(n * n), MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));

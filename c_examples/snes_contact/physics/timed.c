@@ -7,29 +7,23 @@
  * fades linearly: a jump of forces could not be cut into smaller steps. */
 #include "physics/timed.h"
 
+typedef struct {
+  const PetscInt *equations;
+  EntryVisit      action;
+  void           *context;
+} Unknowns;
+
+static void visit_unknown(const Support *support, PetscInt entry, int component, PetscBool owned, void *context)
+{
+  const Unknowns *of = context;
+  if (of->equations[entry] >= 0) of->action(support, entry, component, owned, of->context);
+}
+
 PetscErrorCode timed_visit(const Physics *physics, const Support *support, EntryVisit action, void *context)
 {
-  const Mesh     *mesh = physics->mesh;
-  char            label[2 * NAME_LENGTH];
-  const PetscInt *points;
-  PetscInt        n, at;
-  IS              is;
+  Unknowns of = {.equations = physics->unknowns.equations, .action = action, .context = context};
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(label, sizeof(label), "support.%s", support->name));
-  PetscCall(DMGetStratumIS(mesh->dm, label, 1, &is));
-  if (!is) PetscFunctionReturn(PETSC_SUCCESS); /* no such vertex on this rank */
-  PetscCall(ISGetLocalSize(is, &n));
-  PetscCall(ISGetIndices(is, &points));
-  for (PetscInt k = 0; k < n; k++) {
-    PetscCall(PetscSectionGetOffset(physics->unknowns.section, points[k], &at));
-    for (int i = 0; i < 3; i++) { /* of others the equation is negative: they are prescribed from start to end */
-      if (!(support->mask & (1 << i))) continue;
-      PetscBool owned = (PetscBool)!physics->unknowns.ghost[mesh->here[points[k]]];
-      if (physics->unknowns.equations[at + i] >= 0) action(support, at + i, owned, context);
-    }
-  }
-  PetscCall(ISRestoreIndices(is, &points));
-  PetscCall(ISDestroy(&is));
+  PetscCall(support_visit(physics, support, visit_unknown, &of));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -67,9 +61,9 @@ PetscBool timed_past(PetscReal t, PetscReal time)
   return (PetscBool)(t > time && !curve_same_time(t, time));
 }
 
-static void hold(const Support *support, PetscInt entry, PetscBool owned, void *context)
+static void hold(const Support *support, PetscInt entry, int component, PetscBool owned, void *context)
 {
-  (void)support, (void)owned;
+  (void)support, (void)component, (void)owned;
   ((PetscBool *)context)[entry] = PETSC_TRUE;
 }
 
@@ -95,10 +89,10 @@ PetscBool entry_held(const Physics *physics, PetscInt entry)
   return (PetscBool)(physics->unknowns.equations[entry] < 0 || (physics->timed && physics->timed->held[entry]));
 }
 
-static void add(const Support *support, PetscInt entry, PetscBool owned, void *context)
+static void add(const Support *support, PetscInt entry, int component, PetscBool owned, void *context)
 {
   EntryCopies *copies = context;
-  (void)support, (void)owned;
+  (void)support, (void)component, (void)owned;
   copies->to[entry] += copies->from[entry];
 }
 

@@ -8,8 +8,11 @@ struct Timed {
   Vec        place, let_go, caught;  /* local: p less what the support says; reactions that fade, complete at owned entries; the last ones */
 };
 
-/* Calls for each entry of a support that is an unknown. */
-typedef void (*EntryVisit)(const Support *support, PetscInt entry, PetscBool owned, void *context);
+/* Calls for each entry of a local vector that is a component which a support holds of this rank's vertices. */
+typedef void (*EntryVisit)(const Support *support, PetscInt entry, int component, PetscBool owned, void *context);
+PetscErrorCode support_visit(const Physics *physics, const Support *support, EntryVisit action, void *context);
+
+/* The same for those that are unknowns: of others the equation is negative, for they are prescribed from start to end. */
 PetscErrorCode timed_visit(const Physics *physics, const Support *support, EntryVisit action, void *context);
 
 /* Adds what is left at physics->t of a support that was let go, at entries that this rank owns. */

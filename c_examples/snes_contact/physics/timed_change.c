@@ -10,10 +10,10 @@ PetscErrorCode timed_catch(Physics *physics)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static void copy(const Support *support, PetscInt entry, PetscBool owned, void *context)
+static void copy(const Support *support, PetscInt entry, int component, PetscBool owned, void *context)
 {
   EntryCopies *copies = context;
-  (void)support, (void)owned;
+  (void)support, (void)component, (void)owned;
   copies->to[entry] = copies->from[entry];
 }
 

@@ -82,10 +82,10 @@ typedef struct {
   PetscReal          factor;
 } Fading;
 
-static void add_fading(const Support *support, PetscInt entry, PetscBool owned, void *context)
+static void add_fading(const Support *support, PetscInt entry, int component, PetscBool owned, void *context)
 {
   Fading *fading = context;
-  (void)support;
+  (void)support, (void)component;
   if (owned && !fading->held[entry]) fading->forces[entry] += fading->factor * fading->let_go[entry];
 }
 

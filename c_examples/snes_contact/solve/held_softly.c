@@ -26,7 +26,8 @@ typedef struct {
   PetscReal *values, *rows;
 } SpringMotions;
 
-/* From motions that supports and contact leave, and the springs' stiffness against all motions. */
+/* From motions that supports and contact leave, and the springs' stiffness against all motions: smaller ones are the rounding of the
+ * largest. */
 static PetscErrorCode find_motions(Motions *m, const Motions *springs, SpringMotions *found)
 {
   const PetscInt n = m->n;
@@ -42,6 +43,8 @@ static PetscErrorCode find_motions(Motions *m, const Motions *springs, SpringMot
     }
   }
   PetscCall(motions_eigen(found->n, stiffness, found->values));
+  for (PetscInt a = 0; a < found->n; a++)
+    found->values[a] = PetscMax(found->values[a], PETSC_MACHINE_EPSILON * found->values[found->n - 1]);
   for (PetscInt a = 0; a < found->n; a++) {
     for (PetscInt k = 0; k < found->n * n; k++)
       found->rows[n * a + k % n] += stiffness[found->n * a + k / n] * m->gram[k];
@@ -106,11 +109,11 @@ static PetscErrorCode find_soft(const Solve *solve, Motions *m, const Motions *s
   PetscFunctionBegin;
   *soft = (Soft){0};
   PetscCall(find_motions(m, springs, &all));
-  for (PetscInt k = 0; k < all.n; k++) { /* smaller stiffnesses are the rounding of the largest one */
-    const PetscReal *row = all.rows + m->n * k, stiffness = PetscMax(all.values[k], PETSC_MACHINE_EPSILON * all.values[all.n - 1]);
+  for (PetscInt k = 0; k < all.n; k++) {
+    const PetscReal *row   = all.rows + m->n * k;
     const PetscReal  moved = measure_way(solve->physics, m, first, row);
     PetscReal        drift, over;
-    measure_drift(solve->physics, m, row, stiffness, &drift, &over);
+    measure_drift(solve->physics, m, row, all.values[k], &drift, &over);
     if (!(over > DRIFT) && !(moved > solve->size)) continue;
     if (over > soft->over) soft->over = over, soft->drift = drift;
     soft->moved = PetscMax(soft->moved, moved);
@@ -221,10 +224,10 @@ PetscErrorCode held_describe_springs(const Solve *solve, PetscReal rtol, char te
   motions_add_rings(physics, &m);
   PetscCall(find_motions(&m, &springs, &all));
   for (PetscInt k = 0; k < all.n; k++) {
-    const PetscReal *row = all.rows + m.n * k, kappa = PetscMax(all.values[k], PETSC_MACHINE_EPSILON * all.values[all.n - 1]);
+    const PetscReal *row      = all.rows + m.n * k;
     PetscReal        rounding = 0;
     for (PetscInt p = 0; p < physics->parts.n; p++)
-      rounding = PetscMax(rounding, share(&m, row, p) * PETSC_MACHINE_EPSILON * physics->parts.part[p].young * m.size[p] / kappa);
+      rounding = PetscMax(rounding, share(&m, row, p) * PETSC_MACHINE_EPSILON * physics->parts.part[p].young * m.size[p] / all.values[k]);
     if (!(rounding > rtol)) continue;
     worst = PetscMax(worst, rounding);
     PetscCall(PetscArraymove(all.rows + m.n * n_soft++, row, m.n));

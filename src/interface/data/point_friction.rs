@@ -22,8 +22,6 @@ pub struct FrictionNode {
     pub sigma: (f64, Vec3),
     /// lambda_N and lambda_T.
     pub lambda: (f64, Vec3),
-    /// rhat_A [F/L^3].
-    pub stiffness: f64,
     /// rhat_A / D_A: how sigma follows the weighted gap [F/L^5].
     pub slope: f64,
 }

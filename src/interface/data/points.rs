@@ -63,6 +63,12 @@ pub struct PointPair {
     pub dual: PairWeights,
 }
 
+/// Adds n_AB of a pair to those of its facet.
+#[inline]
+pub fn add_mass(sum: &mut OfNodes, weights: &PairWeights) {
+    sum.as_flattened_mut().iter_mut().zip(weights.ab.as_flattened()).for_each(|(sum, n)| *sum += n);
+}
+
 /// What a facet is at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Closed {
@@ -84,9 +90,7 @@ impl Closed {
             Closed::All => return &facet.mass,
             Closed::Part(first) => {
                 for closed in &parts[first..first + facet.places().len()] {
-                    for (m, n) in room.as_flattened_mut().iter_mut().zip(closed.ab.as_flattened()) {
-                        *m += n;
-                    }
+                    add_mass(room, closed);
                 }
             }
         }

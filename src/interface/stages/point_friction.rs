@@ -12,16 +12,13 @@ use super::residual::Residual;
 use super::sums::NodeSums;
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
+use crate::interface::data::multiplier;
 use crate::interface::data::point_friction::{FrictionNode, REALS_PER_POINT};
 use crate::interface::data::points::Points;
 use crate::interface::pairing::given::Given;
 use crate::law::{NodeResponse, Projected, State, Threshold, project_parts};
 use crate::memory::{self, Store};
 use nalgebra::SVector;
-
-pub(super) fn vector<const N: usize>(of: &SVector<f64, N>) -> Vec3 {
-    Vec3::from_fn(|i, _| of.get(i).copied().unwrap_or(0.0))
-}
 
 /// The part of v in the plane with this unit normal.
 pub(super) fn in_plane(v: Vec3, normal: Vec3) -> Vec3 {
@@ -37,19 +34,18 @@ impl Points {
 
     /// What the nodes tell the points.
     fn tell<const N: usize>(&mut self, given: Given<N>, lambda: &[SVector<f64, N>], sums: &[NodeSums]) -> Result<()> {
-        let areas = &given.history().areas;
         let (_, committed) = given.setup.options.effective_slip().coefficients();
         self.friction.nodes.clear();
         memory::refill(&mut self.is_covered, false, lambda.len())?;
         for (a, (lambda, sum)) in lambda.iter().zip(sums).enumerate() {
-            let (normal, lambda) = (given.normal(a)?, vector(lambda));
+            let normal = given.normal(a)?;
+            let lambda = multiplier::traction(lambda, normal);
             let along = given.setup.nodes.free[a] - normal * normal.transpose();
             let mut node = FrictionNode { normal, along, ..FrictionNode::default() };
             node.lambda = (normal.dot(&lambda), along * lambda);
-            node.stiffness = given.augmentation(a) * areas[a];
             if sum.coverage > given.least_coverage(a) {
                 self.is_covered[a] = true;
-                node.slope = node.stiffness / sum.coverage;
+                node.slope = self.rhat[a] / sum.coverage;
                 let slip = along * (sum.gap_now - sum.gap_committed * committed);
                 node.sigma.0 = node.lambda.0 + node.slope * normal.dot(&sum.gap_now);
                 node.sigma.1 = node.lambda.1 + slip * node.slope;
@@ -62,7 +58,7 @@ impl Points {
     /// The answers of the points of a facet.
     fn ask<const N: usize>(&mut self, given: Given<N>, at: usize) -> Result<()> {
         let (facet, states, mu) = (&self.facets[at], &given.history().states, &given.setup.nodes.mu);
-        let (nodes, e, friction) = (facet.nodes(), facet.normal, &mut self.friction);
+        let (nodes, e, rhat, friction) = (facet.nodes(), facet.normal, &self.rhat, &mut self.friction);
         let is_open = nodes.iter().all(|&a| friction.nodes[a].sigma.0 >= 0.0);
         for place in facet.places() {
             for q in friction.of_pair(place) {
@@ -75,7 +71,7 @@ impl Points {
                     t += node.sigma.1 * *own;
                     coefficient += own * mu[a];
                     field += node.lambda.1 * *own;
-                    stiffness += own * node.stiffness;
+                    stiffness += own * rhat[a];
                 }
                 let z = Vec3::from_fn(|i, _| states[REALS_PER_POINT * q + i]);
                 let trial = in_plane(t, e) + z;
@@ -103,7 +99,6 @@ impl Points {
     ) -> Result<()> {
         self.check_memory(given)?;
         self.tell(given, lambda, sums)?;
-        let areas = &given.history().areas;
         memory::refill(&mut self.shares, 0.0, lambda.len())?;
         memory::refill(&mut self.friction.shares, 0.0, lambda.len())?;
         memory::refill(&mut self.friction.dissipation, 0.0, lambda.len())?;
@@ -116,7 +111,8 @@ impl Points {
                 (State::Gap, Vec3::zeros(), node.normal.dot(&sums[a].gap_now));
             // What is not free stays 0, by a row of its own.
             let free = given.setup.nodes.free[a];
-            let held = (Mat3::identity() - free) * vector(&lambda[a]) / -given.augmentation(a);
+            let held =
+                (Mat3::identity() - free) * multiplier::traction(&lambda[a], node.normal) / -given.augmentation(a);
             response.row = SVector::from_fn(|i, _| held[i]);
             response.sigma = node.normal * node.sigma.0 + node.sigma.1;
         }
@@ -124,7 +120,7 @@ impl Points {
             self.ask(given, at)?;
             let (facet, friction) = (&self.facets[at], &mut self.friction);
             for (k, &a) in facet.nodes().iter().enumerate().filter(|(_, a)| self.is_covered[**a]) {
-                let (node, rhat) = (friction.nodes[a], given.augmentation(a) * areas[a]);
+                let (node, rhat) = (friction.nodes[a], self.rhat[a]);
                 let (mut force, mut closed, mut slips) = (Vec3::zeros(), 0.0, 0.0);
                 let mut work = 0.0;
                 for q in facet.places().flat_map(|place| friction.of_pair(place)) {

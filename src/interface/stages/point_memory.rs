@@ -7,10 +7,11 @@
 //! with P', T' of the new planes and normals, and S the turn of the facet about its normal. At the same points t(x) is t_q in every bit; a
 //! traction that is of the field sum_A N_A Theta_A is carried exactly to any points.
 
-use super::point_friction::{in_plane, vector};
+use super::point_friction::in_plane;
 use crate::dual::Mass;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Spin, Vec3};
+use crate::interface::data::multiplier;
 use crate::interface::data::point_friction::REALS_PER_POINT;
 use crate::interface::data::points::{PointFacet, Points};
 use crate::interface::pairing::given::Given;
@@ -84,7 +85,7 @@ impl Points {
         let mut along = memory::with_room(lambda.len())?;
         for (a, lambda) in lambda.iter().enumerate() {
             let (normal, free) = (given.normal(a)?, given.setup.nodes.free[a]);
-            along.store((free - normal * normal.transpose()) * vector(lambda))?;
+            along.store((free - normal * normal.transpose()) * multiplier::traction(lambda, normal))?;
         }
         for facet in &self.facets {
             let old = Tractions::of(facet, before);

@@ -17,7 +17,7 @@ use crate::interface::data::lines::{Lines, line};
 use crate::interface::data::options::Decision;
 use crate::interface::data::pairs::{PairRecord, ParentRecord, Weighted};
 use crate::interface::data::parents::Parents;
-use crate::interface::data::points::{Closed, OfNodes, PointFacet, PointPair, Points};
+use crate::interface::data::points::{Closed, OfNodes, PointFacet, PointPair, Points, add_mass};
 use crate::interface::pairing::given::Given;
 use crate::law::{NodeResponse, State};
 use crate::line::{LineFacet, LineWeights, Measure};
@@ -146,9 +146,7 @@ impl Points {
         for pair in pairs {
             let Some((own, other, measure)) = line_pair(given, x, (f, pair.two)) else { continue };
             let whole = of_line_weights(&LineWeights::new(&own, &other, MultiplierSpace::Corner, measure));
-            for (row, of_pair) in mass.iter_mut().zip(&whole.ab) {
-                row.iter_mut().zip(of_pair).for_each(|(m, n)| *m += n);
-            }
+            add_mass(&mut mass, &whole);
             length = (own.x[1] - own.x[0]).norm();
             let dual = of_parent_weights(&pair.weights);
             self.pairs.store(PointPair { two: pair.two, whole, dual })?;

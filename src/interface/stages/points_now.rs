@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::geometry::Plane;
 use crate::interface::data::active::Active;
 use crate::interface::data::pairs::{PairRecord, ParentRecord, Weighted};
-use crate::interface::data::points::{OfNodes, PointPair, Points};
+use crate::interface::data::points::{OfNodes, PointPair, Points, add_mass};
 use crate::interface::pairing::given::Given;
 use crate::memory::Store;
 use crate::points::{of_facet, of_line};
@@ -68,9 +68,7 @@ impl Points {
         let mut mass = OfNodes::default();
         for (pair, place) in pairs.iter().zip(first..) {
             let (whole, dual) = (of_parent_weights(active.integrated_parent(place)), of_parent_weights(&pair.weights));
-            for (m, n) in mass.as_flattened_mut().iter_mut().zip(whole.ab.as_flattened()) {
-                *m += n;
-            }
+            add_mass(&mut mass, &whole);
             self.pairs.store(PointPair { two: pair.two, whole, dual })?;
         }
         let (nodes, x) = (one.host_nodes(f), &given.history().x1);

@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::active::Active;
 use crate::interface::data::options::Tangent;
-use crate::interface::data::points::{Closed, OfNodes, PointFacet, Points};
+use crate::interface::data::points::{Closed, PointFacet, Points};
 use crate::interface::pairing::given::Given;
 use crate::interface::pairing::overlaps::FacetOverlaps;
 use crate::interface::stages::facet::dual_basis;
@@ -111,7 +111,7 @@ pub fn of_facets<const N: usize>(
             false => table.add_facets(given, (numbers.points, active), (at, around.mortar(k)))?,
         };
         let Some(whole) = whole else { continue }; // it has faded out
-        table.put_slopes(given, numbers, (facet, &whole), &mut motions.slopes[slopes..]);
+        table.put_slopes(numbers, (facet, &whole), &mut motions.slopes[slopes..]);
         table.emit(given, numbers, (facet, &whole, at), around.mortar(k), emitter)?;
     }
     Ok(motions)
@@ -257,9 +257,8 @@ impl Table {
     }
 
     /// The share of d sigma_A / dx: rhat_A / D_A (nu_A . D(phi m_A h_A e) - gh_A D(phi m_A)).
-    fn put_slopes<const N: usize>(
+    fn put_slopes(
         &self,
-        given: Given<N>,
         PointNumbers { points, sums, normals, .. }: &PointNumbers,
         (facet, whole): (&PointFacet, &Whole),
         slopes: &mut [Vec3],
@@ -272,7 +271,7 @@ impl Table {
             let turn =
                 whole.turn.get(column).filter(|_| column < facet.n).map_or(Vec3::zeros(), |t| t.column(j).into());
             for (l, &a) in facet.nodes().iter().enumerate().filter(|(_, a)| points.is_covered[**a]) {
-                let (nu, rhat) = (normals[a], given.augmentation(a) * given.history().areas[a]);
+                let (nu, rhat) = (normals[a], points.rhat[a]);
                 let gap = whole.e * (gaps[l] + areas[l] * whole.heights[l]) + turn * (covered[l] * whole.heights[l]);
                 let height = nu.dot(&sums[a].gap_now) / sums[a].coverage;
                 slopes[l * n + column][j] += rhat / sums[a].coverage * (nu.dot(&gap) - height * areas[l]);
@@ -300,9 +299,7 @@ impl Table {
         places.sort_unstable_by_key(|(order, ..)| *order);
         order.clear();
         order.store_all(places.iter().map(|&(_, k, place)| (k, place)))?;
-        let (sigma, mut room) = (points.acting(at), OfNodes::default());
-        let closed = points.states[at].mass(facet, &points.closed, &mut room);
-        let forces: OfCorners = std::array::from_fn(|b| (0..MAX_CORNERS).map(|a| closed[a][b] * sigma[a]).sum());
+        let (sigma, forces) = (points.acting(at), points.forces[at]);
         for pair in facet.places() {
             let Some(closed) = points.closed(at, pair) else { break };
             for (l, c) in given.setup.mortar.host_nodes(points.pairs[pair].two).iter().enumerate() {
@@ -333,7 +330,7 @@ impl Table {
         let times = |m: &[OfCorners; MAX_CORNERS], k: usize| (0..MAX_CORNERS).map(|l| m[k][l] * lambda[l]).sum::<f64>();
         let covered: f64 = facet.mass.as_flattened().iter().sum();
         for (k, &b) in facet.nodes().iter().enumerate().filter(|(_, b)| one.has_row(**b) && points.is_covered[**b]) {
-            let scale = given.row_scale(b) / (given.augmentation(b) * given.history().areas[b]);
+            let scale = given.row_scale(b) / points.rhat[b];
             let (smooth, mass) = (points.factors[b] * times(&facet.stabilisation, k) / covered, times(&facet.mass, k));
             let block = |column: usize| {
                 std::array::from_fn(|j| {
