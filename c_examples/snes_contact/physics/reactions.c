@@ -2,31 +2,6 @@
  * what is left of one that was let go. */
 #include "physics/timed.h"
 
-PetscErrorCode support_visit(const Physics *physics, const Support *support, EntryVisit action, void *context)
-{
-  const Mesh     *mesh = physics->mesh;
-  char            label[2 * NAME_LENGTH];
-  const PetscInt *points;
-  PetscInt        n, at;
-  IS              is;
-  PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(label, sizeof(label), "support.%s", support->name));
-  PetscCall(DMGetStratumIS(mesh->dm, label, 1, &is));
-  if (!is) PetscFunctionReturn(PETSC_SUCCESS); /* no such vertex on this rank */
-  PetscCall(ISGetLocalSize(is, &n));
-  PetscCall(ISGetIndices(is, &points));
-  for (PetscInt k = 0; k < n; k++) {
-    const PetscBool owned = (PetscBool)!physics->unknowns.ghost[mesh->here[points[k]]];
-    PetscCall(PetscSectionGetOffset(physics->unknowns.section, points[k], &at));
-    for (int i = 0; i < 3; i++) {
-      if (support->mask & (1 << i)) action(support, at + i, i, owned, context);
-    }
-  }
-  PetscCall(ISRestoreIndices(is, &points));
-  PetscCall(ISDestroy(&is));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* What supports before this one hold. */
 typedef struct {
   PetscInt           support; /* its number */
