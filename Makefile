@@ -27,10 +27,10 @@ help:
 	@echo "make compare the same problems in other programs, those that are installed (FIGURES=1: renew the table)"
 	@echo "make bench   what the kernels cost, over a C++ baseline and in instructions (FIGURES=1: renew its table)"
 	@echo "make stability  hard cases x severity, each compared with an answer: build/stability/index.html; can be resumed;"
-	@echo "             QUICK=1: the part that make test runs; ONLY='FILE ...' of tests/stability/cases; BASIS=dual;"
+	@echo "             QUICK=1: the part that make test-long runs; ONLY='FILE ...' of tests/stability/cases; BASIS=dual;"
 	@echo "             NORMALS=current; FIGURES=1: as above"
 	@echo "make check   the quick part of it, two minutes once built: format, lints, Rust tests, a few scenes"
-	@echo "make test    every test and check, the same in every run"
+	@echo "make test    tests and checks, the same in every run; make test-long has the rest"
 	@echo "make test-long  those that take too long for it; .ci/run runs both"
 	@echo "make random  the property tests on other random input, ten times as much (SEED=n CASES=n)"
 	@echo "make ratios  the force of fine facets in coarse ones against the ratio of both and the number of steps, an hour"
@@ -243,6 +243,9 @@ test-long:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory cmake-build TESTS=ON
 	@$(LOCKED) cmake --build $(BUILD) --parallel $(JOBS) --target sanitize
+	$(SAY) "The Rust tests that take longer, those beside the sources, a pass of the benches"
+	cargo test --locked --lib --bench kernels
+	cargo test --locked --test interface -- --ignored --skip ratios::
 	$(SAY) "The tests that take longer (ctest)"
 	@cd $(BUILD) && ctest --output-on-failure --no-tests=error --parallel $(JOBS) -L long
 
@@ -274,7 +277,8 @@ rust-tests:
 	cargo fmt --all --check
 	cargo clippy --locked --all-targets -- -D warnings
 	$(SAY) "Rust and C ABI tests"
-	cargo test --locked
+	cargo test --locked --test '*'
+	cargo test --locked --doc
 
 cmake-build:
 	$(SAY) "Library and examples"

@@ -462,6 +462,7 @@ fn quadratic_facets_take_the_same_step_as_with_multipliers() {
 }
 
 #[test]
+#[ignore = "a third of a minute or so: make test-long"]
 fn the_matrix_of_quadratic_facets_is_the_derivative() {
     for weak_coverage in [NO_WEAK_COVERAGE, WEAK] {
         let options = Options { mu: 0.4, weak_coverage, ..options() };

@@ -363,6 +363,12 @@ proptest! {
         }
     }
 
+}
+
+proptest! {
+    // Half a second each.
+    #![proptest_config(crate::support::random::cases(20))]
+
     /// The same of quadratic facets.
     #[test]
     fn parts_of_quadratic_facets_add_up_to_the_whole(recipe in recipes(), kinds in any::<[prop::sample::Index; 2]>()) {

@@ -329,6 +329,7 @@ fn tied_gaps_of_quadratic_facets_turn_with_them() {
 
 /// Facets enough for several chunks a phase (`src/interface/plan/phases.rs`), in whose order a plan adds blocks up.
 #[test]
+#[ignore = "a third of a minute or so: make test-long"]
 fn threads_do_not_change_a_bit() {
     const CELLS: i64 = 58;
     let one = grid_of(CELLS, CELLS, [0.0, 0.0], [1.0, 1.0], false, &[8, 9]);

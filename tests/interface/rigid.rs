@@ -118,6 +118,7 @@ fn wall(normal: Vec3, distance: f64) -> Elastic {
 
 /// Walls at 35 and at 50 degrees, a ball between them under its weight: their forces follow from two equations.
 #[test]
+#[ignore = "a third of a minute or so: make test-long"]
 fn a_ball_settles_into_a_groove_as_statics_say() {
     // A ball in closed form, to which only the other side can have the multipliers; and one of facets.
     let frame = Mesh { x: [Vec3::zeros(), Vec3::x(), Vec3::y(), Vec3::z()].to_vec(), facets: Vec::new() };
@@ -300,6 +301,7 @@ const HERTZ: f64 = 0.02;
 
 /// A rigid cylinder pressed by a force onto a flat, and one that finds its own height between two flats that close.
 #[test]
+#[ignore = "a third of a minute or so: make test-long"]
 fn a_cylinder_between_flats_is_hertz() {
     const FACETS: f64 = 10.0;
     const OF_CIRCLE: usize = 4000;
