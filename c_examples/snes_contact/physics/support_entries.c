@@ -30,17 +30,17 @@ typedef struct {
   const PetscInt *equations;
   EntryVisit      action;
   void           *context;
-} Unknowns;
+} UnknownEntries;
 
 static void visit_unknown(const Support *support, PetscInt entry, int component, PetscBool owned, void *context)
 {
-  const Unknowns *of = context;
+  const UnknownEntries *of = context;
   if (of->equations[entry] >= 0) of->action(support, entry, component, owned, of->context);
 }
 
 PetscErrorCode timed_visit(const Physics *physics, const Support *support, EntryVisit action, void *context)
 {
-  Unknowns of = {.equations = physics->unknowns.equations, .action = action, .context = context};
+  UnknownEntries of = {.equations = physics->unknowns.equations, .action = action, .context = context};
   PetscFunctionBegin;
   PetscCall(support_visit(physics, support, visit_unknown, &of));
   PetscFunctionReturn(PETSC_SUCCESS);
