@@ -317,6 +317,7 @@ abi:
 	$(PYTHON) tests/abi/check.py --library $(BUILD)/lib/libstickslip.so --renew
 
 sizes:
+	@.ci/setup test
 	$(SAY) "The library without one feature at a time"
 	@$(PYTHON) tests/abi/sizes.py --build $(BUILD)/sizes $(if $(FIGURES),--renew)
 

@@ -1,44 +1,22 @@
 #!/usr/bin/env python3
-"""Bytes of the stripped library as a whole, without one feature at a time, and without any (docs/abi.md).
+"""Bytes of the stripped library as a whole, without one feature at a time, and without any (docs/abi.md). Each is built without
+warnings, refuses by name what needs the features that it lacks, and takes and computes everything else as the whole one does.
 
-    sizes.py --build DIR [--renew]    builds eleven libraries in DIR; --renew writes the table into docs/abi.md
+    sizes.py --build DIR [--renew]    builds a library for each row in DIR; --renew writes the table into docs/abi.md
 """
 
 import argparse
-import subprocess
+import shutil
 import sys
-import tempfile
-import tomllib
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+import lean
+from features import FEATURES, ROOT, library, stripped
+
 sys.path.append(str(ROOT / "studies" / "common"))
-from documents import put_between  # noqa: E402
+from documents import put_between  # noqa: E402  (needs the path)
 
 MARKS = ("<!-- sizes: written by tests/abi/sizes.py -->\n", "<!-- end of sizes -->")
-FEATURES = tomllib.loads((ROOT / "Cargo.toml").read_text())["features"]["default"]
-
-
-def run(*command):
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
-    if done.returncode:
-        sys.exit(f"{' '.join(map(str, command))}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
-
-
-def library(build, features):
-    """The shared library with these features, built by CMake as it is installed."""
-    wanted = ";".join(features) or "none"
-    run("cmake", "-S", ROOT, "-B", build, "-DSTICKSLIP_TESTS=OFF", "-DSTICKSLIP_EXAMPLES=OFF", f"-DSTICKSLIP_FEATURES={wanted}")
-    run("cmake", "--build", build, "--target", "stickslip_cargo")
-    return build / "lib" / "libstickslip.so"
-
-
-def stripped(path):
-    """Bytes of a library without its symbols."""
-    with tempfile.TemporaryDirectory() as folder:
-        small = Path(folder) / "stripped.so"
-        run("strip", "-o", small, path)
-        return small.stat().st_size
 
 
 def table(sizes):
@@ -58,13 +36,20 @@ def main():
     builds = {"all": FEATURES}
     builds |= {f"all but `{name}`": [other for other in FEATURES if other != name] for name in FEATURES}
     builds["none of them"] = []
-    sizes = {}
+    build, sizes, failed = arguments.build.resolve(), {}, []
+    whole = build / "whole.so"  # the next build overwrites it
     for name, features in builds.items():
-        sizes[name] = stripped(library(arguments.build.resolve(), features))
-        print(f"{name:24} {sizes[name]:10}", flush=True)
-    if arguments.renew:
+        made = library(build, features)
+        if name == "all":
+            shutil.copy(made, whole)
+        sizes[name] = stripped(made)
+        wrong = [what for what, holds in lean.checks(whole, made, features).items() if holds is not True]
+        failed += wrong
+        print(f"{name:24} {sizes[name]:10}  {'; '.join(f'FAILED {what}' for what in wrong)}", flush=True)
+    if arguments.renew and not failed:
         put_between(ROOT / "docs" / "abi.md", MARKS, table(sizes))
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

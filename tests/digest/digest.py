@@ -74,7 +74,9 @@ def compare(arguments):
             text += "; " + histories.difference(*arguments.libraries, seed)
         print(text)
     if others:
-        print(f"{len(others)} of {len(pairs)} histories differ")
+        computed = lambda history: [part for part in history if part[0] != "history"]
+        alone = sum(computed(pairs[seed][0]) == computed(pairs[seed][1]) for seed in others)
+        print(f"{len(others)} of {len(pairs)} histories differ, {alone} of them in nothing but what is exported (its layout)")
     for name in sorted(before["scenes"].keys() & after["scenes"].keys()):
         text = scenes.difference(before["scenes"][name], after["scenes"][name])
         if text:

@@ -112,8 +112,8 @@ static const char *in_words(SNESConvergedReason reason, const char *linear)
   }
 }
 
-/* Why it ended: the library or a cell refused; a cycle, in this attempt or an earlier one; or what SNES says, with
- * the nodes that still changed state. */
+/* Why it ended: the library or a cell refused; loads that rounding hides, under which nodes may cycle as well; a cycle, in this attempt
+ * or an earlier one; or what SNES says, with the nodes that still changed state. */
 static PetscErrorCode explain(Solve *solve, SNESConvergedReason reason)
 {
   Physics *physics = solve->physics;
@@ -135,15 +135,15 @@ static PetscErrorCode explain(Solve *solve, SNESConvergedReason reason)
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "the library says: %s", contact->refusal));
   } else if (physics->inverted[0]) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s", physics->inverted));
-  } else if (newton->cycle[0]) {
-    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s%s%s", newton->cycle,
-                            newton->stopped ? "" : "; at last: ", newton->stopped ? "" : in_words(reason, linear)));
   } else if (newton->drowned >= 0) {
     const Part *part = &physics->parts.part[newton->drowned];
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why),
                             "the loads on a body with E = %.3g, %.2g in all, are lost in the rounding of its own forces, "
                             "%.2g: make it less stiff, or `type: analytic`, or load it by a prescribed displacement",
                             (double)part->young, (double)part->loads, (double)part->residual));
+  } else if (newton->cycle[0]) {
+    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s%s%s", newton->cycle,
+                            newton->stopped ? "" : "; at last: ", newton->stopped ? "" : in_words(reason, linear)));
   } else if (contact->settling.unsettled[0] && reason != SNES_DIVERGED_LINEAR_SOLVE) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why),
                             "the forces balance, but the contact is not in equilibrium (%s); where augmentation_scale is "

@@ -1,5 +1,6 @@
-"""Two plane bodies that meet: one stiffer and stiffer, or heavier and heavier, steps from a hundredth of h / c to a hundred of it. Whatever
-becomes of it, no step gives energy, and what contact takes is all that is gone; momentum is kept."""
+"""Two plane bodies that meet: one stiffer and stiffer, or heavier and heavier, steps from a tenth of h / c to a hundred of it. Whatever
+becomes of it, no step gives energy, and what contact takes is all that is gone; momentum is kept. With persistent weights, which dynamics take
+by themselves, a disc that spins, too. A rigid brick that tumbles, by more and more in a step."""
 
 import numpy as np
 
@@ -9,6 +10,9 @@ from cell import series
 # Newton's method ends at 1e-11 of the forces, once a step; the energy of a body that a step stops is all of it.
 ENERGY = 1e-8
 CELL = 0.25
+# A rule that keeps both exactly, whose equations Newton's method solves to 1e-11.
+RIGID = 1e-9
+PERSISTENT = {"weights": "persistent"}
 
 
 def meeting(stiff=1.0, heavy=1.0, step=1.0, **interface):
@@ -41,8 +45,66 @@ def kept(context, scene):
     return result
 
 
+def disc(spin):
+    """A disc of finite strain that spins and falls askew on a block: it slides on a rim of facets, which turn in every step."""
+    body = {"type": "box", "poisson": 0.3, "density": 1.0, "material": "neo_hooke"}
+    return {
+        "schema": 1,
+        "model": "plane_strain",
+        "bodies": ["disc", "block"],
+        "disc": {**body, "ball": [0, 0], "lower": [-0.5, -0.5], "upper": [0.5, 0.5], "cells": [6, 6], "young": 200.0,
+                 "velocity": [0.5, -1], "spin": spin},
+        "block": {**body, "lower": [-1.5, -1.25], "upper": [1.5, -0.505], "cells": [18, 4], "young": 400.0},
+        "supports": ["ground"],
+        "ground": {"surface": "block.ymin", "components": ["x", "y"]},
+        "dynamics": {"rho_inf": 1},
+        "surfaces": ["rim"],
+        "rim": {"of": [f"disc.{axis}{end}" for axis in "xy" for end in ("min", "max")], "within": [-9, -9, 9, 9]},
+        "interfaces": ["base"],
+        "base": {"nonmortar": "block.ymax", "mortar": "rim", "friction": 0.1},
+        "steps": {"count": 60, "end": 0.3},
+        "output": {"vtu": "none", "csv": "none"},
+    }
+
+
+def spins(context, spin):
+    whole = context.solve(disc(spin))
+    result = host.outcome(whole)
+    if result.refusal is None:
+        table = np.genfromtxt(whole.directory / "energy.csv", delimiter=",", names=True)
+        energy = table["kinetic"][0]
+        result.below("work of contact in a step", max(0.0, np.diff(table["contact_work"]).max() / energy), ENERGY, "never positive")
+        result.below("given by contact", table["contact_gain"][-1] / energy, ENERGY, "nothing")
+        result.true("it flies off", table["momentum_y"][-1] > 0, "contact did work")
+    return result
+
+
+def tumbles(context, turn):
+    """A brick about its middle axis, `turn` radians in each of 20 steps."""
+    spin = np.array([0.3, 4, 0.1])
+    brick = {"type": "rigid", "from": "box", "lower": [-1, -0.5, -0.25], "upper": [1, 0.5, 0.25], "cells": [1, 1, 1], "reference": [0, 0, 0],
+             "density": 3, "velocity": [1, 0, 0.5], "spin": spin.tolist()}
+    whole = context.solve({"schema": 1, "bodies": ["brick"], "brick": brick, "dynamics": {"rho_inf": 1},
+                           "steps": {"count": 20, "end": 20 * turn / 4}, "output": {"vtu": "none"}})
+    result = host.outcome(whole)
+    if result.refusal is None:
+        table = np.genfromtxt(whole.directory / "energy.csv", delimiter=",", names=True)
+        energy, angular = table["kinetic"], np.stack([table[f"angular_{axis}"] for axis in "xyz"], axis=1)
+        inertia = np.array([1 + 0.25, 4 + 0.25, 4 + 1]) / 4
+        result.below("energy at the start", abs(energy[0] / ((3 * 1.25 + inertia @ spin**2) / 2) - 1), RIGID, "of a brick")
+        result.below("energy", np.abs(energy / energy[0] - 1).max(), RIGID, "kept at any step")
+        result.below("moment of momentum", np.abs(angular - inertia * spin).max() / np.linalg.norm(inertia * spin), RIGID, "kept at any step")
+    return result
+
+
 def cells():
     yield from series("dynamics: stiffness over that of the other", (1e0, 1e2, 1e4, 1e6), lambda s: lambda c: kept(c, meeting(stiff=s)), quick=(1e4,))
     yield from series("dynamics: mass over that of the other", (1e0, 1e2, 1e4, 1e6), lambda s: lambda c: kept(c, meeting(heavy=s)))
     yield from series("dynamics: steps over h / c", (1e-1, 1e0, 1e1, 1e2), lambda s: lambda c: kept(c, meeting(step=s)), quick=(1e0,))
     yield from series("dynamics: with friction", (0.1, 0.3, 1.0), lambda s: lambda c: kept(c, meeting(friction=s)), quick=(0.3,))
+    lasting = lambda **about: lambda c: kept(c, meeting(**about, **PERSISTENT))
+    yield from series("dynamics, persistent weights: stiffness", (1e0, 1e2, 1e4, 1e6), lambda s: lasting(stiff=s), quick=(1e4,))
+    yield from series("dynamics, persistent weights: steps over h / c", (1e-1, 1e0, 1e1, 1e2), lambda s: lasting(step=s))
+    yield from series("dynamics, persistent weights: friction", (0.1, 0.3, 1.0), lambda s: lasting(friction=s), quick=(0.3,))
+    yield from series("dynamics: a disc that spins", (0.1, 1, 5, 12, 30), lambda s: lambda c: spins(c, s), quick=(12,))
+    yield from series("dynamics: a brick tumbles, radians a step", (1e-3, 1e-2, 0.1, 0.5, 1.0, 2.0), lambda s: lambda c: tumbles(c, s), quick=(0.5,))

@@ -1,5 +1,6 @@
 """Contact that is decided at points: patch tests over stiffness, meshes, the modulus that is told, r, units; a block whose nodes are
-covered in part; a body that lifts off on one side, its force by statics; a load that comes and goes."""
+covered in part; a body that lifts off on one side, its force by statics; a load that comes and goes. With weights of now the same blocks,
+and one that slides over facets in one step, against one that has been there from the start."""
 
 import numpy as np
 
@@ -17,6 +18,10 @@ UNIFORM, OF_CONTRAST = 1e-9, 1e-13
 # Statics of the converged state: 1e-11 of the forces, with some hundred of them.
 STATICS = 1e-9
 YOUNG, PRESSURE = 1000.0, 10.0
+NOW = ("-contact_weights", "current")
+SLIDES = ("0.1", "0.5", "1", "3", "6")
+# Normals are those of the last commit: at rest what they lack falls by a factor of 1000 a step, and there are four such steps.
+AT_REST = 1e-8
 # Eight decades off the right one nothing is left of the gaps beside the multipliers, or the other way round: no answer is allowed.
 FAR_OFF, NO_ANSWER = ("1e8", "1e-8"), r"too many iterations|not in equilibrium"
 # The matrix may be about standard multipliers or normals of now, which points do not have.
@@ -116,7 +121,47 @@ def overhang(text):
     return run
 
 
-def tilted(text):
+def now(cells=(3, 4), contrast=1.0):
+    """The patch test with weights of now: without lateral strain, so that areas are those of the undeformed blocks."""
+    scene = blocks(cells, contrast)
+    scene["upper"]["poisson"] = scene["lower"]["poisson"] = 0.0
+    return uniform(scene, *NOW, bound=UNIFORM + OF_CONTRAST * max(contrast, 1 / contrast))
+
+
+def slides(text):
+    """Pressed and drawn over so many facets of the base in one step, then at rest."""
+    way = 0.25 * float(text)
+
+    def placed(at, drawn):
+        box = {"type": "box", "poisson": 0.3, "small_strain": True, "young": YOUNG}
+        scene = blocks()
+        scene["upper"] = {**box, "lower": [at, 0, 0], "upper": [at + 1, 1, 1], "cells": [3, 3, 2]}
+        scene["lower"] = {**box, "lower": [-0.5, 0, -1], "upper": [3, 1, 0], "cells": [14, 4, 2]}
+        scene["supports"] = ["floor", "top"]
+        scene["floor"] = {"surface": "lower.zmin", "components": ["x", "y", "z"]}
+        scene["top"] = {"surface": "upper.zmax", "components": ["x", "y", "z"], "value": [drawn, 0, -0.01], "curve": [0, 0, 1, 1]}
+        scene["steps"] = {"count": 5, "end": 5}
+        for unused in ("loads", "press", "left", "front"):
+            del scene[unused]
+        return scene
+
+    def run(context):
+        one, other = (context.solve(placed(*about), *LAW, *NOW, name=name)
+                      for about, name in (((0, way), "drawn"), ((way, 0), "there")))
+        outcome = host.outcome(one)
+        if outcome.refusal is None:
+            a, b = one.interface("contact"), other.interface("contact")
+            largest = np.abs(b["lambda_n"]).max()
+            outcome.below("multipliers", np.abs(a["lambda_n"] - b["lambda_n"]).max() / largest, AT_REST, "as of the one that was there")
+            outcome.below("forces", np.abs(a["fz"] - b["fz"]).max() / np.abs(b["fz"]).max(), AT_REST, "as of the one that was there")
+            floor = np.array(one.steps[-1]["reactions"]["floor"])[2]
+            outcome.below("force against the floor's", abs(a["fz"].sum() / floor - 1), STATICS, "statics")
+        return outcome
+
+    return run
+
+
+def tilted(text, *options):
     """The block is pressed with a moment: beyond a sixth of its width it lifts off on one side. Force and moment by statics."""
     share = float(text)
 
@@ -129,7 +174,7 @@ def tilted(text):
         scene["top"] = {"surface": "upper.zmax", "components": ["x", "z"], "value": [0, 0, -0.01], "origin": [0.5, 0, 1],
                         "gradient": [0, 0, 0, 0, 0, 0, 0.04 * share, 0, 0]}
         del scene["loads"], scene["press"]
-        run = context.solve(scene, *LAW, kappa=True)
+        run = context.solve(scene, *LAW, *options, kappa=True)
         outcome = host.outcome(run)
         if outcome.refusal is None:
             table = run.interface("contact")
@@ -138,7 +183,7 @@ def tilted(text):
             x = table["X"] + table["ux"]
             scale = np.abs(table["fz"]).sum()
             outcome.true("no node pulls", (table["fz"] >= -1e-6 * scale).all(), "contact")
-            outcome.figures["closed"] = float((table["closed"] * table["area_covered"]).sum())
+            outcome.figures["closed"] = float((table["closed"] * table["area_covered"]).sum() / table["area_covered"].sum())
             outcome.true("opens on one side" if share > 0.4 else "closed", (outcome.figures["closed"] < 0.999) == (share > 0.4),
                          "the force is within a third of the width")
             outcome.figures["arm"] = float((x * table["fz"]).sum() / scale)
@@ -157,3 +202,7 @@ def cells():
     yield from series("points, unit of stress", UNITS, stresses, quick=("1e3",))
     yield from series("points, cover of the last facets", COVERS, overhang, quick=("1e-4",))
     yield from series("points, tilted", TILTS, tilted, quick=("0.9",))
+    yield from series("points and weights of now, contrast of stiffness", CONTRASTS, lambda t: now(contrast=float(t)), quick=("1e-4",))
+    yield from series("points and weights of now, meshes", [f"{a}:{b}" for a, b in MESHES], lambda t: now(tuple(map(int, t.split(":")))), quick=("2:20",))
+    yield from series("points and weights of now, tilted", TILTS, lambda t: tilted(t, *NOW), quick=("0.9",))
+    yield from series("points and weights of now, slide in a step over facets", SLIDES, slides, quick=("3",))
