@@ -199,12 +199,12 @@ def laws_of(facets):
     return [law for law in HERTZ_LAWS if (facets, law) not in LEFT_OUT]
 
 
-def hertz_case(driver, facets, travel, name):
-    """(case, runs of our laws by name) of the half-cylinders pressed together by `travel`."""
+def hertz_case(driver, facets, travel, name, laws=HERTZ_LAWS):
+    """(case, runs of our laws by name) of the half-cylinders pressed together by `travel`; `laws`: options by name."""
     h = HALF_WIDTH / facets
     options = (*friction.line_mesh(h), *friction.FRICTIONLESS, "-press_value", f"0,0,{-travel:.10g}", *OURS)
     runs = {law: driver.run("cattaneo_line", *options, *of, label=f"{name}_{k}")
-            for k, (law, of) in enumerate(HERTZ_LAWS.items()) if law in laws_of(facets)}
+            for k, (law, of) in enumerate(laws.items()) if (facets, law) not in LEFT_OUT}
     first = next(iter(runs.values()))
     points = first.mesh()[0]
     radius = lambda x, z: np.hypot(x[:, 0], x[:, 2] - z)
