@@ -94,7 +94,7 @@ static inline void set_up(const kind *k, every *c) {
 
 /* What points that decide do not go with. */
 static inline int is_of_nodes(const entry_point *entry) {
-  static int32_t (*const all[])(every *) = {every_law, every_threshold, every_heat, every_heat_coo, every_committed, every_with_sums};
+  static int32_t (*const all[])(every *) = {every_law, every_threshold, every_set_law_states, every_heat, every_heat_coo, every_committed, every_with_sums};
   for (int k = 0; k < COUNT(all); ++k) {
     if (entry->call == all[k]) return 1;
   }
