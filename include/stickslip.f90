@@ -52,7 +52,7 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_MISSING_ENTRY = 14
   integer(c_int32_t), parameter :: STICKSLIP_NOTHING_TO_ROLL_BACK = 15
   integer(c_int32_t), parameter :: STICKSLIP_HISTORY_MISMATCH = 16
-  ! Within the step a surface has turned too far; commit smaller steps.
+  ! Within the step a surface has turned too far; commit smaller steps. With weights of the reference: since the first configuration.
   integer(c_int32_t), parameter :: STICKSLIP_TURNED_TOO_FAR = 17
   ! The system has no memory left for what the call needs.
   integer(c_int32_t), parameter :: STICKSLIP_OUT_OF_MEMORY = 18
@@ -240,7 +240,7 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_node_response_size = 408
   integer(c_int64_t), parameter :: stickslip_node_size = 240
   integer(c_int64_t), parameter :: stickslip_facet_size = 72
-  integer(c_int64_t), parameter :: stickslip_equilibrium_size = 120
+  integer(c_int64_t), parameter :: stickslip_equilibrium_size = 136
   integer(c_int64_t), parameter :: stickslip_rigid_body_size = 56
   integer(c_int64_t), parameter :: stickslip_rigid_motion_size = 136
   integer(c_int64_t), parameter :: stickslip_law_size = 72
@@ -491,6 +491,8 @@ module stickslip
     real(c_double) :: slide = 0                    ! since frozen weights were made [L]; compare with half of slide_scale
     real(c_double) :: slide_scale = 0              ! size of the facets around the node [L]
     integer(c_int64_t) :: slide_node = -1
+    real(c_double) :: turn = 0                     ! since weights of the reference were made, by the part of the pressure [rad]
+    integer(c_int64_t) :: turn_node = -1
   end type
 
   ! A rigid body: nodes that move with a reference point. Of lines (dimension 2) vectors have two numbers.

@@ -195,7 +195,8 @@
 #define STICKSLIP_HISTORY_MISMATCH 16
 
 /// Within the step a surface has turned by more than options.turn_max: the normals of t_n no longer mean it. Commit
-/// smaller steps.
+/// smaller steps. With STICKSLIP_WEIGHTS_REFERENCE it is the turn since the first configuration, which none shortens: take
+/// STICKSLIP_WEIGHTS_CURRENT.
 #define STICKSLIP_TURNED_TOO_FAR 17
 
 /// The system has no memory left for what the call needs. Nothing was changed.
@@ -1077,6 +1078,13 @@ typedef struct stickslip_equilibrium {
   double slide_scale;
   /// Output: the node of slide.
   int64_t slide_node;
+  /// Output: how far the surface has turned since weights of the reference were made: the angle between a node's normals of then and of
+  /// now, times the part that its traction is of traction_scale; the largest. No violation, and 0 with all other weights, and of tied
+  /// surfaces. Pressure goes on acting along the first normals, so that this part of it acts along the surface as it is now, as a shear
+  /// that friction has not allowed; in radians [-].
+  double turn;
+  /// Output: the node of turn.
+  int64_t turn_node;
 } stickslip_equilibrium;
 
 /// A rigid body: nodes that move with a reference point, those of a surface of one interface or of several, or any others.
@@ -2337,7 +2345,8 @@ int32_t stickslip_facet_tangent(const struct stickslip_facet *facet,
 /// and in a slip, and modulus / h times that in a traction. Nodes without any multiplier equation have no part in it.
 ///
 /// With STICKSLIP_WEIGHTS_COMMITTED and _REFERENCE look at slide, too: a point may be in equilibrium with weights that no longer
-/// belong to it. Beyond half of slide_scale take smaller steps (COMMITTED alone), or STICKSLIP_WEIGHTS_CURRENT.
+/// belong to it. Beyond half of slide_scale take smaller steps (COMMITTED alone), or STICKSLIP_WEIGHTS_CURRENT;
+/// so do, with _REFERENCE, where turn is more than a few hundredths.
 ///
 /// x1 (3 n1), x2 (3 n2): positions [L]; lambda (3 n1; without friction n1) [F/L^2]; sums: see
 /// `stickslip_interface_sums`, or NULL; with sums every handle finds the same but for the largest coordinate, which is
@@ -2471,8 +2480,9 @@ int32_t stickslip_rigid_turn(struct stickslip_rigid_motion *motion);
 /// matrices of the host's; its other entries stay as they are. Multipliers of a rigid non-mortar side stay those of its nodes.
 ///
 /// n_bodies, bodies: each body once, whatever interfaces it is in; index_base 0 or 1; n_entries, rows, columns (n_entries each): the
-/// nodal matrix, in any order, with entries more than once where they add up; one of row or column -1 is left out. Outputs: out, the
-/// handle; count: entries of the outcome, those of a body's rows and columns with itself always among them.
+/// nodal matrix, in any order, with entries more than once where they add up; one of row or column -1 is left out. With n_entries 0, as
+/// of a tool that nothing follows, both may be NULL: forces on the bodies turn with them all the same. Outputs: out, the handle; count:
+/// entries of the outcome, those of a body's rows and columns with itself always among them.
 ///
 /// Errors: NULL_POINTER (body.point, too: a body needs a reference point), STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE,
 /// INVALID_VALUE (the index base, the dimension; an equation that two nodes or two unknowns have), UNSUPPORTED (more than 1e9 nodes).
@@ -2503,8 +2513,8 @@ int32_t stickslip_rigid_coo(struct stickslip_rigid *rigid,
 /// the reference points as they are now, and of all other rows. docs/formulation.md 14.4.
 ///
 /// rigid: what `stickslip_rigid_create` made; motions: one of each body; forces: of the bodies' nodes, body by body, each dimension n_nodes, as for
-/// `stickslip_rigid_resultant` [F]: their arms turn with the body; nodal (n_entries): the nodal matrix in the order of
-/// `stickslip_rigid_create`. Output: values (count of `stickslip_rigid_create`). After NOT_FINITE because a value overflows they mean
+/// `stickslip_rigid_resultant` [F]: their arms turn with the body; nodal (n_entries; NULL where there are none): the nodal matrix
+/// in the order of `stickslip_rigid_create`. Output: values (count of `stickslip_rigid_create`). After NOT_FINITE because a value overflows they mean
 /// nothing. Units of an entry: its row's over its column's.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a motion, as `stickslip_rigid_positions`).

@@ -17,6 +17,11 @@ pub fn corner_normal(facet: &Facet, k: usize) -> Vec3 {
     if norm > 0.0 { w / norm } else { Vec3::zeros() }
 }
 
+/// The angle between two unit vectors, exact where it is small, as the scalar product is not.
+pub fn angle(from: &Vec3, to: &Vec3) -> f64 {
+    2.0 * ((from - to).norm() / 2.0).min(1.0).asin()
+}
+
 /// The edges at corner k of a facet, to the next corner and to the previous one.
 fn edges(facet: &Facet, k: usize) -> [Vec3; 2] {
     let (n, x) = (facet.len(), &facet.nodes);

@@ -229,3 +229,15 @@ def test_heat_passes_and_is_what_its_tangent_says():
             face.heat(*point, t1, t2, warmth=1.0)
         with pytest.raises(stickslip.Error, match="reach"):
             face.heat(*point, t1, t2, constant=1.0)
+
+
+def test_shapes_that_fit_are_each_named_once():
+    (x1, f1), (x2, f2) = scene.grid(2, 0.13, 1.0, 0.0, False), scene.grid(3, 0.0, 1.2, 0.0, True)
+    numbers = np.arange(x1.size + x2.size + len(x1), dtype=np.int64)
+    of1, of2, of_lam = np.split(numbers, np.cumsum([x1.size, x2.size]))
+    first, second = stickslip.Surface(x1, f1, of1.reshape(x1.shape), of_lam), stickslip.Surface(x2, f2, of2.reshape(x2.shape))
+    with stickslip.Interface(first, second, friction="none", modulus=1000.0) as face:
+        with pytest.raises(ValueError, match=r"^lam: shape \(9, 1\), \(9,\) is needed$"):
+            face.residual(x1, x2, np.zeros((9, 1)))
+        with pytest.raises(ValueError, match=r"^x1: shape \(3,\), \(9, 3\) or \(27,\) is needed$"):
+            face.residual(np.zeros(3), x2, np.zeros(9))

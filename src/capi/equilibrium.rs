@@ -55,6 +55,13 @@ pub struct stickslip_equilibrium {
     pub slide_scale: f64,
     /// Output: the node of slide.
     pub slide_node: i64,
+    /// Output: how far the surface has turned since weights of the reference were made: the angle between a node's normals of then and of
+    /// now, times the part that its traction is of traction_scale; the largest. No violation, and 0 with all other weights, and of tied
+    /// surfaces. Pressure goes on acting along the first normals, so that this part of it acts along the surface as it is now, as a shear
+    /// that friction has not allowed; in radians [-].
+    pub turn: f64,
+    /// Output: the node of turn.
+    pub turn_node: i64,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -76,7 +83,8 @@ unsafe impl Sized64 for stickslip_equilibrium {
 /// and in a slip, and modulus / h times that in a traction. Nodes without any multiplier equation have no part in it.
 ///
 /// With STICKSLIP_WEIGHTS_COMMITTED and _REFERENCE look at slide, too: a point may be in equilibrium with weights that no longer
-/// belong to it. Beyond half of slide_scale take smaller steps (COMMITTED alone), or STICKSLIP_WEIGHTS_CURRENT.
+/// belong to it. Beyond half of slide_scale take smaller steps (COMMITTED alone), or STICKSLIP_WEIGHTS_CURRENT;
+/// so do, with _REFERENCE, where turn is more than a few hundredths.
 ///
 /// x1 (3 n1), x2 (3 n2): positions [L]; lambda (3 n1; without friction n1) [F/L^2]; sums: see
 /// `stickslip_interface_sums`, or NULL; with sums every handle finds the same but for the largest coordinate, which is
@@ -108,8 +116,8 @@ pub unsafe extern "C" fn stickslip_interface_equilibrium(
         let found =
             either!(&mut h.inner, c => c.equilibrium(point.x1(), point.x2(), point.lambda(), point.sums(), &scales)?);
         let node = |largest: &Largest| largest.node.map_or(-1, |a| a as i64 + h.base);
-        let (gap, traction, slip, slide) = (found.gap, found.traction, found.slip, found.slide);
-        let numbers = [gap, traction, slip, slide].map(|l| [l.value, l.scale]);
+        let (gap, traction, slip, slide, turn) = (found.gap, found.traction, found.slip, found.slide, found.turn);
+        let numbers = [gap, traction, slip, slide, turn].map(|l| [l.value, l.scale]);
         raw::check_results("equilibrium", numbers.as_flattened())?;
         sized::write(
             out,
@@ -126,6 +134,8 @@ pub unsafe extern "C" fn stickslip_interface_equilibrium(
                 slide: slide.value,
                 slide_scale: slide.scale,
                 slide_node: node(&slide),
+                turn: turn.value,
+                turn_node: node(&turn),
                 ..given
             },
         );

@@ -241,8 +241,9 @@ pub unsafe extern "C" fn stickslip_rigid_turn(motion: *mut stickslip_rigid_motio
 /// matrices of the host's; its other entries stay as they are. Multipliers of a rigid non-mortar side stay those of its nodes.
 ///
 /// n_bodies, bodies: each body once, whatever interfaces it is in; index_base 0 or 1; n_entries, rows, columns (n_entries each): the
-/// nodal matrix, in any order, with entries more than once where they add up; one of row or column -1 is left out. Outputs: out, the
-/// handle; count: entries of the outcome, those of a body's rows and columns with itself always among them.
+/// nodal matrix, in any order, with entries more than once where they add up; one of row or column -1 is left out. With n_entries 0, as
+/// of a tool that nothing follows, both may be NULL: forces on the bodies turn with them all the same. Outputs: out, the handle; count:
+/// entries of the outcome, those of a body's rows and columns with itself always among them.
 ///
 /// Errors: NULL_POINTER (body.point, too: a body needs a reference point), STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE,
 /// INVALID_VALUE (the index base, the dimension; an equation that two nodes or two unknowns have), UNSUPPORTED (more than 1e9 nodes).
@@ -274,9 +275,13 @@ pub unsafe extern "C" fn stickslip_rigid_create(
             all.store((body, six))?;
         }
         let kept: Vec<_> = all.into_iter().zip(&of_nodes).map(|((body, six), of)| (body, &of[..], six)).stored()?;
-        let n = raw::count(n_entries, 1, "n_entries")?;
-        let rows = from_zero(raw::slice(rows, n, "rows")?, base, "rows")?;
-        let columns = from_zero(raw::slice(columns, n, "columns")?, base, "columns")?;
+        let n = raw::count(n_entries, 0, "n_entries")?;
+        let (rows, columns) = if n == 0 {
+            (Vec::new(), Vec::new())
+        } else {
+            let rows = from_zero(raw::slice(rows, n, "rows")?, base, "rows")?;
+            (rows, from_zero(raw::slice(columns, n, "columns")?, base, "columns")?)
+        };
         raw::check(out, "out")?;
         raw::check(count, "count")?;
         let plan = RigidPlan::new(&kept, rows.into_iter(), columns.into_iter())?;
@@ -326,8 +331,8 @@ pub unsafe extern "C" fn stickslip_rigid_coo(
 /// the reference points as they are now, and of all other rows. docs/formulation.md 14.4.
 ///
 /// rigid: what `stickslip_rigid_create` made; motions: one of each body; forces: of the bodies' nodes, body by body, each dimension n_nodes, as for
-/// `stickslip_rigid_resultant` [F]: their arms turn with the body; nodal (n_entries): the nodal matrix in the order of
-/// `stickslip_rigid_create`. Output: values (count of `stickslip_rigid_create`). After NOT_FINITE because a value overflows they mean
+/// `stickslip_rigid_resultant` [F]: their arms turn with the body; nodal (n_entries; NULL where there are none): the nodal matrix
+/// in the order of `stickslip_rigid_create`. Output: values (count of `stickslip_rigid_create`). After NOT_FINITE because a value overflows they mean
 /// nothing. Units of an entry: its row's over its column's.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a motion, as `stickslip_rigid_positions`).
@@ -348,7 +353,7 @@ pub unsafe extern "C" fn stickslip_rigid_values(
         let of_bodies = plan.bodies().enumerate().map(motion).stored_if_ok()?;
         let n: usize = plan.bodies().map(|(dimension, nodes)| dimension * nodes).sum();
         let forces = raw::numbers(forces, n, "forces")?;
-        let nodal = raw::numbers(nodal, plan.entries(), "nodal")?;
+        let nodal = if plan.entries() == 0 { &[] } else { raw::numbers(nodal, plan.entries(), "nodal")? };
         let values = raw::values(values, plan.places().len(), "values")?;
         plan.values(&of_bodies, forces, nodal, values);
         raw::check_array("values", values)

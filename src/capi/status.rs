@@ -36,7 +36,8 @@ pub const STICKSLIP_NOTHING_TO_ROLL_BACK: i32 = 15;
 /// An imported history does not belong to this interface.
 pub const STICKSLIP_HISTORY_MISMATCH: i32 = 16;
 /// Within the step a surface has turned by more than options.turn_max: the normals of t_n no longer mean it. Commit
-/// smaller steps.
+/// smaller steps. With STICKSLIP_WEIGHTS_REFERENCE it is the turn since the first configuration, which none shortens: take
+/// STICKSLIP_WEIGHTS_CURRENT.
 pub const STICKSLIP_TURNED_TOO_FAR: i32 = 17;
 /// The system has no memory left for what the call needs. Nothing was changed.
 pub const STICKSLIP_OUT_OF_MEMORY: i32 = 18;

@@ -95,11 +95,6 @@ impl<const N: usize> Cache<N> {
         self.answers.responses.points.is_settled = false;
     }
 
-    /// Points that remember their friction.
-    pub fn points(&mut self, given: Given<N>) -> Result<usize> {
-        self.answers.responses.points.count(given)
-    }
-
     /// Takes the points that the step which begins has been found to have.
     pub fn settle_points(&mut self, points: Points) {
         self.answers.responses.points = points;

@@ -96,6 +96,21 @@ impl Contact<1> {
     }
 }
 
+/// A step that begins.
+fn begun<const N: usize>(setup: &Setup<N>, pairing: Pairing, history: History) -> Step {
+    Step { history, pairing, normals: setup.options.normals, now: None, room: NormalsAt::default() }
+}
+
+/// The points of a step before which nothing has slipped, which its history is to remember with friction; without it none.
+fn unslipped<const N: usize>(setup: &Setup<N>, step: &mut Step) -> Result<Points> {
+    let mut points = Points::default();
+    if setup.has_point_friction() {
+        let count = points.count(Given { setup, step })?;
+        memory::refill(&mut step.history.states, 0.0, REALS_PER_POINT * count)?;
+    }
+    Ok(points)
+}
+
 /// Data, and what a host sets.
 impl<const N: usize> Contact<N> {
     fn build(setup: Setup<N>) -> Result<Contact<N>> {
@@ -106,23 +121,13 @@ impl<const N: usize> Contact<N> {
         let (surfaces, history) = (setup.surfaces(), History::empty());
         let settled = commit::settled_at(surfaces, &setup.options, Extent::Whole, work, at, known, history)?;
         let pairing = Pairing::new(&setup, settled.filter, &settled.history)?;
-        let normals = setup.options.normals;
-        let step = Step { history: settled.history, pairing, normals, now: None, room: NormalsAt::default() };
+        let mut step = begun(&setup, pairing, settled.history);
         Given { setup: &setup, step: &step }.normals()?;
+        let points = unslipped(&setup, &mut step)?;
         cache.begin(&step.history, settled.active);
+        cache.settle_points(points);
         let (linear, residual) = (Linear::default(), Residual::default());
-        let mut contact = Contact { setup, step, rollback: None, spare: None, cache, linear, residual };
-        contact.remember_points()?;
-        Ok(contact)
-    }
-
-    /// With friction at points: that they have not slipped yet.
-    fn remember_points(&mut self) -> Result<()> {
-        if self.setup.has_point_friction() {
-            let count = self.cache.points(Given { setup: &self.setup, step: &self.step })?;
-            memory::refill(&mut self.step.history.states, 0.0, REALS_PER_POINT * count)?;
-        }
-        Ok(())
+        Ok(Contact { setup, step, rollback: None, spare: None, cache, linear, residual })
     }
 
     /// What the stages are given.
@@ -299,9 +304,12 @@ impl<const N: usize> Contact<N> {
         let mut new = commit::settled_at(surfaces, options, Extent::Whole, work, (x1, x2), known, History::empty())?;
         memory::refill(&mut new.history.states, 0.0, self.step.history.states.len())?;
         new.history.check_finite()?;
-        self.adopt(new)?;
+        let mut next = self.begin(Pairing::new(&self.setup, new.filter, &new.history)?, new.history);
+        let points = unslipped(&self.setup, &mut next)?;
+        self.put_in_place(next.pairing, next.history, new.active);
+        self.cache.settle_points(points);
         self.rollback = None;
-        self.remember_points()
+        Ok(())
     }
 
     /// Takes (x1, x2) as t_n, after so many commits, with this slip since the first configuration `[L]` at every node: what
@@ -403,7 +411,7 @@ impl<const N: usize> Contact<N> {
 
     /// A step that begins, to be looked at before it is put in place.
     fn begin(&self, pairing: Pairing, history: History) -> Step {
-        Step { history, pairing, normals: self.setup.options.normals, now: None, room: NormalsAt::default() }
+        begun(&self.setup, pairing, history)
     }
 
     /// Undoes the last commit exactly.

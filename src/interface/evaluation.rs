@@ -2,6 +2,7 @@
 
 use super::contact::Contact;
 use super::data::extent::Extent;
+use super::data::options::Weights;
 use super::inspect::closing;
 use super::inspect::diagnosis::{self, Diagnosis};
 use super::inspect::equilibrium::{self, Equilibrium, Scales};
@@ -169,9 +170,11 @@ impl<const N: usize> Contact<N> {
     ) -> Result<Equilibrium> {
         let extent = Extent::of(sums);
         self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
-        let (answers, scope) = (self.cache.answers(), self.cache.scope(extent));
+        let scope = self.cache.scope(extent);
+        let (_, answers, work) = self.cache.acting(self.setup.surfaces(), &self.step.history);
         let known = (&answers.sums[..], &answers.responses.carried[..], &answers.responses.nodes[..]);
-        equilibrium::equilibrium(self.given(), (x1, x2), lambda, known, scope, scales)
+        let given = Given { setup: &self.setup, step: &self.step };
+        equilibrium::equilibrium(given, (x1, x2), lambda, known, scope, (scales, &mut work.room.vectors))
     }
 
     /// Which nodes are covered, and how, at (x1, x2), however far apart the surfaces are there.
@@ -200,13 +203,17 @@ impl<const N: usize> Contact<N> {
             self.tangent(x1, x2, lambda, None, &mut rows)?;
             diagnosis::suspects(self.given(), rows, &node_sums, &states)?
         };
-        Ok(diagnosis::diagnosis(
+        let mut diagnosis = diagnosis::diagnosis(
             self.given(),
             self.cache.pairs(&self.step.history),
             (x1, x2),
             &node_sums,
             states,
             suspects,
-        ))
+        );
+        if self.setup.options.effective_weights() == Weights::Reference {
+            diagnosis.turn = self.equilibrium(x1, x2, lambda, sums, &Scales::default())?.turn;
+        }
+        Ok(diagnosis)
     }
 }

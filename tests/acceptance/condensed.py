@@ -52,6 +52,7 @@ REFUSED = (
     ("press_fit", ("dual",), 1, "contact.nonmortar: 'push' prescribes u_x of its node at [0., 0., 250.]: with `unknowns: displacements`"),
     ("two_blocks", ("standard",), 3, "condensation with standard multipliers"),
     ("two_blocks", ("dual", "-contact_form", "augmented"), 3, "asked for by `unknowns: displacements`"),
+    ("two_blocks", ("dual", "-contact_decision", "points", "-contact_weights", "committed"), 3, "or take `decision: nodes`"),
 )
 
 

@@ -1,5 +1,5 @@
 """Checks of frozen weights where surfaces slide or turn: steps of `weights: committed` that slide too far are cut back, `weights: reference`
-warns, and neither is converged and wrong without a word (contact/slide.c, contact/turned.c)."""
+warns, and neither is converged and wrong without a word (contact/slide.c)."""
 
 import math
 
@@ -17,7 +17,7 @@ ANY = 1000
 QUIET = ("-output_csv", "none", "-output_vtu", "none")
 # Turns of two pressed blocks as one, in radians: none told, told, and told to be meant.
 TURNS = ((0.02, {}, 0), (0.25, {}, 1), (0.25, {"friction": 0}, 1), (0.25, {"turn_max": 0.3}, 0), (0.25, {"weights": "current"}, 0), (0.25, {"law": "tied"}, 0))
-# What is measured is the turn of the facet that is most so, which pressure and friction tilt a little; in radians.
+# What is measured is the turn of the node that is most so, which pressure and friction tilt a little; in radians.
 TURNED_BOUND = 0.005
 SAYS_TURNED = "Weights of the reference know no turn"
 SAYS_CUT, SAYS_REFERENCE = "good for 0.5 times", "Weights of the reference know no sliding"

@@ -10,6 +10,7 @@ typedef struct {
   int32_t form, friction, weights, integration, basis, normals;
   double weak_coverage, slide, lift, shear_limit;
   int rigid, analytic;
+  int points; /* that decide, and remember their friction */
   int unseen; /* the history is not looked at before the end: what a commit has left out is then made up for by a call */
 } kind;
 
@@ -40,6 +41,8 @@ static const kind kinds[] = {
     {.name = "current normals, frictionless", .normals = STICKSLIP_NORMALS_CURRENT, .friction = STICKSLIP_FRICTION_NONE},
     {.name = "current normals, dual, weak coverage", .normals = STICKSLIP_NORMALS_CURRENT, .basis = STICKSLIP_BASIS_DUAL,
      .weak_coverage = 0.5, .slide = 0.9},
+    {.name = "points", .basis = STICKSLIP_BASIS_DUAL, .weights = STICKSLIP_WEIGHTS_COMMITTED, .points = 1},
+    {.name = "points, reference weights", .basis = STICKSLIP_BASIS_DUAL, .weights = STICKSLIP_WEIGHTS_REFERENCE, .points = 1},
     {.name = "rigid", .rigid = 1},
     {.name = "apart", .slide = 50.0},
     {.name = "apart, unseen", .slide = 50.0, .unseen = 1},
@@ -61,6 +64,10 @@ static inline void set_up(const kind *k, every *c) {
   s->options.weak_coverage = k->weak_coverage;
   s->options.shear_limit = k->shear_limit;
   if (!has_mu(k->friction)) s->options.mu = 0.0;
+  if (k->points) {
+    s->options.decision = STICKSLIP_DECISION_POINTS;
+    if (s->options.modulus == 0.0) s->options.modulus = 100.0;
+  }
   if (k->rigid || k->analytic) {
     s->options.mortar_side = k->analytic ? STICKSLIP_MORTAR_ANALYTIC : STICKSLIP_MORTAR_RIGID;
     for (int i = 0; i < X2; ++i) s->equations2[i] = -1;
@@ -85,7 +92,17 @@ static inline void set_up(const kind *k, every *c) {
   every_init(c);
 }
 
+/* What points that decide do not go with. */
+static inline int is_of_nodes(const entry_point *entry) {
+  static int32_t (*const all[])(every *) = {every_law, every_threshold, every_set_law_states, every_heat, every_heat_coo, every_committed, every_with_sums};
+  for (int k = 0; k < COUNT(all); ++k) {
+    if (entry->call == all[k]) return 1;
+  }
+  return is_condensed(entry->name);
+}
+
 static inline int belongs(const kind *k, const entry_point *entry) {
+  if (k->points && is_of_nodes(entry)) return 0;
   if (entry->call == every_friction) return has_mu(k->friction);
   if (entry->call == every_normals) return k->normals == STICKSLIP_NORMALS_COMMITTED;
   if (is_condensed(entry->name)) return k->basis == STICKSLIP_BASIS_DUAL && k->form == STICKSLIP_FORM_MULTIPLIER;

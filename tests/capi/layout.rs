@@ -175,7 +175,9 @@ fn layouts() -> Vec<Layout> {
             slip_node,
             slide,
             slide_scale,
-            slide_node
+            slide_node,
+            turn,
+            turn_node
         }),
         layout!(stickslip_law { struct_size, kind, reserved, cohesion, mu_after, critical_slip, mu_across, direction }),
         layout!(stickslip_law_point { struct_size, node, normal, slip, slip_before, direction, mu }),

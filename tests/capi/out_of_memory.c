@@ -128,6 +128,26 @@ static void try_kind(const kind *k) {
   end(&expected);
 }
 
+/* Where friction is remembered at points, t_n may get more of them than there have been: they are counted before anything is put in place.
+ * They were counted afterwards, and a refusal left a new history that remembered the old points. */
+static void set_previous_with_more_points(void) {
+  static const kind k = {.name = "more points", .basis = STICKSLIP_BASIS_DUAL, .weights = STICKSLIP_WEIGHTS_COMMITTED, .points = 1};
+  static const entry_point previous = {"interface_set_previous", every_previous};
+  const double way = 1.0;
+  for (int then_on = 0; then_on < 2; ++then_on) {
+    static every c;
+    set_up(&k, &c);
+    scene *s = &c.h.s;
+    CHECK_OK(stickslip_interface_destroy(&s->interface));
+    scene_slide(s, way);
+    memcpy(s->reference1, s->x1, sizeof s->reference1);
+    CHECK_OK(stickslip_interface_create(&s->nonmortar, &s->mortar, &s->options, &s->interface));
+    scene_slide(s, -way);
+    fail_everywhere(&k, &previous, &c, then_on);
+    end(&c);
+  }
+}
+
 /* A refusal whose message finds no memory is the same refusal, be it the first call of all. */
 static void refuse_without_memory(void) {
   arm(1, 1);
@@ -154,6 +174,7 @@ int main(void) {
   CHECK(p == NULL);
   const long held = blocks;
   for (int k = 0; k < COUNT(kinds); ++k) try_kind(&kinds[k]);
+  set_previous_with_more_points();
   CHECK(blocks == held);
   CHECK(refusals > 1000);
   return 0;

@@ -232,6 +232,13 @@ static void check_lines(void) {
     for (int j = 0; j < 5; ++j) CHECK_NEAR(k[i][j], expected[i][j], 1e-13);
   }
   CHECK_OK(stickslip_rigid_destroy(&rigid));
+  /* Of a tool that nothing follows the matrix has no entries, and forces on it turn with it all the same. */
+  CHECK_OK(stickslip_rigid_create(1, &body, 0, 0, NULL, NULL, &rigid, &count));
+  CHECK(count == 9);
+  CHECK_OK(stickslip_rigid_coo(rigid, 9, r, c));
+  CHECK_OK(stickslip_rigid_values(rigid, &motion, force, NULL, values));
+  for (int e = 0; e < count; ++e) CHECK_NEAR(values[e], r[e] == 2 && c[e] == 2 ? -14.0 : 0.0, 1e-13);
+  CHECK_OK(stickslip_rigid_destroy(&rigid));
   motion.rotation[0] = 1.0;
   CHECK_REFUSED(stickslip_rigid_positions(&body, &motion, now), STICKSLIP_INVALID_VALUE, "leaves the plane");
 }

@@ -3,6 +3,7 @@
 
 use crate::support::host::{Body, Host};
 use crate::support::mesh::*;
+use nalgebra::Rotation3;
 use stickslip::geometry::Vec3;
 use stickslip::interface::{
     Contact, Equilibrium, Form, Friction, MortarSide, Options, RowScale, Scales, Stiffness, Weights,
@@ -285,6 +286,35 @@ fn frozen_weights_tell_how_far_they_have_slid() {
             assert_eq!(node, (expected > 0.0).then_some(0));
             contact.commit(&x1, &lower.x, &lambda, None).unwrap();
         }
+    }
+}
+
+/// Two squares that are pressed on each other and turned as one: with weights of the reference pressure keeps its first normals, so that a
+/// part of it acts along the surfaces. That was told by the driver alone; the diagnosis said nothing.
+#[test]
+fn weights_of_the_reference_tell_how_far_they_have_turned() {
+    let (upper, lower) = (square([0.0, 0.0], [1.0, 1.0], false), square([-1.0, -1.0], [4.0, 4.0], true));
+    let lambda = vec![-Vec3::z(); 16];
+    for (weights, friction, angle, expected) in [
+        (Weights::Current, Friction::Coulomb, 0.25, 0.0),
+        (Weights::Committed, Friction::Coulomb, 0.25, 0.0),
+        (Weights::Reference, Friction::Coulomb, 0.25, 0.25),
+        (Weights::Reference, Friction::Coulomb, 0.02, 0.02),
+        (Weights::Reference, Friction::Tied, 0.25, 0.0),
+    ] {
+        let mut contact = interface(&upper, &lower, Options { weights, friction, ..options() });
+        let turn = Rotation3::from_axis_angle(&Vec3::y_axis(), angle);
+        let [x1, x2] = [&upper.x, &lower.x].map(|x| x.iter().map(|x| turn * x).collect::<Vec<_>>());
+        let found = measured(&mut contact, (&x1, &x2), &lambda, SCALES).turn;
+        assert!((found.value - expected).abs() <= ROUNDING, "{weights:?} {friction:?} {angle}: {found:?}");
+        let text = contact.diagnose(&x1, &x2, &lambda, None).unwrap().text(1).unwrap();
+        let told = text.contains("has turned by 0.25 rad since weights of the reference were made");
+        assert_eq!(told, expected > 0.1, "{weights:?} {friction:?} {angle}: {text}");
+        // What is not pressed counts by its part of the largest traction.
+        let mut light = lambda.clone();
+        light.iter_mut().skip(1).for_each(|lambda| *lambda *= 1e-3);
+        let node = measured(&mut contact, (&x1, &x2), &light, SCALES).turn.node;
+        assert_eq!(node, (expected > 0.0).then_some(0));
     }
 }
 

@@ -292,6 +292,11 @@ fn what_asks_for_no_normals_may_turn() {
     let error = commit(small, 0.0, &[0.2, 0.4]).unwrap_err();
     assert_eq!(error.kind, Kind::TurnedTooFar);
     assert!(error.message.contains("since the first configuration"), "{}", error.message);
+    // No step is short enough for that, which the refusal had as its remedy.
+    let remedy = "take STICKSLIP_WEIGHTS_CURRENT, or a larger options.turn_max";
+    assert!(error.message.contains(remedy) && !error.message.contains("take smaller steps"), "{}", error.message);
+    let error = commit(base, 0.0, &[quarter]).unwrap_err();
+    assert!(error.message.ends_with("take smaller steps"), "{}", error.message);
     for turn_max in [0.0, -0.1, 3.2, f64::NAN] {
         assert_eq!(Options { turn_max, ..base }.validate().unwrap_err().kind, Kind::InvalidValue);
     }

@@ -100,7 +100,7 @@ typedef struct {
 /* The library takes x1, x2 and the multipliers: */
 #define STATE_OF(part) (part)->x, MORTAR_OF(part, (part)->x), MULTIPLIERS_OF(part, (part)->gathered)
 
-/* How far surfaces with frozen weights have slid (slide.c), over the size of facets, or turned (turned.c), in radians; what is allowed; in
+/* How far surfaces with frozen weights have slid, over the size of facets, or turned, in radians (slide.c); what is allowed; in
  * words, where that is more; and whether it was told. */
 typedef struct {
   PetscReal amount, most;
@@ -305,8 +305,9 @@ PetscErrorCode contact_archive(Contact *contact, Archive *archive);
 PetscErrorCode parts_share(const ContactPart *part, PetscInt width, double values[]);
 PetscErrorCode parts_collect(const ContactPart *part, PetscInt width, const double values[], double home[]);
 PetscErrorCode parts_send(const ContactPart *part, PetscInt width, const double home[], double values[]);
-/* the library's sentence in the interface's numbers */
-void parts_translate(const ContactPart *part, const char *from, char to[], size_t length);
+/* the library's sentence in the interface's numbers and the scene's words; key_words.c: one of these, see there */
+void        parts_translate(const ContactPart *part, const char *from, char to[], size_t length);
+const char *key_word(const char *from, char to[], size_t length);
 
 /* contact_setup.c, contact.c: `status` > 0 on every rank if the library refused on any, for the reason in contact->refusal */
 PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, PetscInt *status);
@@ -428,8 +429,6 @@ void           equilibrium_accept(Contact *contact);
 /* slide.c */
 PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t length);
 PetscErrorCode slide_accept(Contact *contact);
-/* turned.c: of one interface, at the place of the last evaluation */
-PetscErrorCode turned_measure(Interface *interface, const Mesh *mesh);
 
 /* The library's status as a PETSc error, where a refusal is not something to recover from. */
 #define PetscCallStickslip(...)                                                                                        \

@@ -1,5 +1,5 @@
 /* The parts of an interface, one a rank: values between the ranks that own nodes, those that have them too, and homes; and
- * what the library says of a part in the numbers of the interface. */
+ * what the library says of a part in the numbers of the interface and the words of the scene. */
 #include "contact/contact.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -86,6 +86,7 @@ void parts_translate(const ContactPart *part, const char *from, char to[], size_
   size_t used = 0;
   while (*from && used + 1 < length) {
     const char *rest = translate_one(part, from, to + used, length - used);
+    if (!rest) rest = key_word(from, to + used, length - used);
     if (rest)
       used += strlen(to + used);
     else

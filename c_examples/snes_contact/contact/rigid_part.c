@@ -11,7 +11,6 @@ struct RigidPart {
   stickslip_rigid_body   *bodies;
   stickslip_rigid_motion *motions;
   stickslip_rigid        *plan;
-  PetscBool               empty; /* it is made of nothing */
   int64_t                 count, capacity, *rows, *columns; /* of its outcome */
   double                 *values, *scale;
 };
@@ -125,22 +124,15 @@ static double scale_of(const Physics *physics, const RigidPart *rigid, int64_t e
   return 1;
 }
 
-/* What `count` entries in the part's arrays, the library's, become. Where there are none, as of the forces of tied surfaces in a condensed
- * system, these forces turn with the bodies all the same: the library, which wants an entry, gets a zero on the diagonal. */
+/* What `count` entries in the part's arrays, the library's, become. There may be none, as of the forces of tied surfaces in a condensed
+ * system: these forces turn with the bodies all the same. */
 PetscErrorCode rigid_part_plan(const Contact *contact, ContactPart *part, int64_t count)
 {
-  RigidPart     *rigid = part->rigid;
-  const int64_t *rows, *columns;
-  PetscInt       first = 0; /* a component that the body moves */
+  RigidPart *rigid = part->rigid;
   PetscFunctionBegin;
   if (!rigid) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(destroy_plan(rigid));
-  rigid->empty = (PetscBool)!count;
-  while (rigid->numbers[first] < 0)
-    first++;
-  rows         = rigid->empty ? rigid->numbers + first : part->coo_rows;
-  columns      = rigid->empty ? rigid->numbers + first : part->coo_columns;
-  PetscCallStickslip(stickslip_rigid_create(rigid->n_bodies, rigid->bodies, 0, rigid->empty ? 1 : count, rows, columns, &rigid->plan,
+  PetscCallStickslip(stickslip_rigid_create(rigid->n_bodies, rigid->bodies, 0, count, part->coo_rows, part->coo_columns, &rigid->plan,
                                             &rigid->count));
   if (rigid->count > rigid->capacity) {
     rigid->capacity = rigid->count + rigid->count / 4;
@@ -158,17 +150,15 @@ PetscErrorCode rigid_part_plan(const Contact *contact, ContactPart *part, int64_
  * derivatives of forces. */
 PetscErrorCode rigid_part_values(const Contact *contact, ContactPart *part, const PetscScalar *forces)
 {
-  static const double zero  = 0;
-  RigidPart          *rigid = part->rigid;
-  const PetscInt      d     = part->dimension;
+  RigidPart     *rigid = part->rigid;
+  const PetscInt d     = part->dimension;
   PetscFunctionBegin;
   if (!rigid || !rigid->plan) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt b = 0; b < rigid->n_bodies; b++)
     rigid->motions[b] = rigids_motion(&contact->physics->rigids[rigid->which[b]]);
   for (PetscInt k = 0; k < d * rigid->n_nodes; k++)
     rigid->forces[k] = forces ? PetscRealPart(forces[d * rigid->nodes[k / d] + k % d]) : 0;
-  PetscCallStickslip(stickslip_rigid_values(rigid->plan, rigid->motions, rigid->forces, rigid->empty ? &zero : part->coo_values,
-                                            rigid->values));
+  PetscCallStickslip(stickslip_rigid_values(rigid->plan, rigid->motions, rigid->forces, part->coo_values, rigid->values));
   for (int64_t k = 0; k < rigid->count; k++)
     rigid->values[k] *= rigid->scale[k];
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,26 +1,48 @@
 /* With frozen weights contact is sought, and forces act on the mortar side, where the surfaces were when the weights were made. A
- * step that slides farther than that shows still converges, and is wrong by about the slide. How far it is, the library says
+ * step that slides farther than that shows still converges, and is wrong by about the slide. With weights of the reference normals are of
+ * then, too: where a surface turns, this part of the pressure acts as a shear. How far either is, the library says
  * (stickslip_equilibrium); what is done about it is said here: steps with `weights: committed` or `persistent` are cut back, for the
- * next commit makes the weights anew. With `weights: reference` none does, and the run is told once; so it is where such surfaces
- * have turned (turned.c). */
+ * next commit makes the weights anew. With `weights: reference` none does, and the run is told once. */
 #include "contact/contact.h"
 
-/* Over all ranks: the slide over the size of the node's facets, of the last evaluation that was judged. */
-static PetscErrorCode measure(Interface *interface, const Mesh *mesh)
+/* Over all ranks, of the last evaluation that was judged: what a part has found, and where[0:3], the node. */
+static PetscErrorCode find_largest(const Interface *interface, const Mesh *mesh, double found, int64_t node, Frozen *frozen, PetscReal where[4])
+{
+  const ContactPart *part = &interface->part;
+  PetscFunctionBegin;
+  frozen->amount = part->handle && found > 0 ? found : 0;
+  if (frozen->amount > 0) contact_vector(part->dimension, part->X, (PetscInt)node, where);
+  PetscCall(contact_largest(mesh, &frozen->amount, 4 * sizeof(*where), where));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The slide over the size of the node's facets. */
+static PetscErrorCode measure_slide(Interface *interface, const Mesh *mesh)
 {
   const stickslip_equilibrium *e        = &interface->equilibrium;
-  const ContactPart           *part     = &interface->part;
   Frozen                      *slide    = &interface->slide;
-  PetscReal                    where[4] = {0, 0, 0, e->slide}; /* the node, its slide */
-
+  PetscReal                    where[4] = {0, 0, 0, e->slide};
   PetscFunctionBegin;
-  slide->amount = part->handle && e->slide > 0 ? e->slide / e->slide_scale : 0;
-  if (slide->amount > 0) contact_vector(part->dimension, part->X, (PetscInt)e->slide_node, where);
-  PetscCall(contact_largest(mesh, &slide->amount, sizeof(where), where));
+  PetscCall(find_largest(interface, mesh, e->slide > 0 ? e->slide / e->slide_scale : 0, e->slide_node, slide, where));
   PetscCall(PetscSNPrintf(slide->words, sizeof(slide->words),
                           "%s has slid by %.2g since its weights were made, %.2g times the size of the facets at (%g, %g, %g)",
                           interface->name, (double)where[3], (double)slide->amount, (double)where[0], (double)where[1],
                           (double)where[2]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode measure_turn(Interface *interface, const Mesh *mesh)
+{
+  const stickslip_equilibrium *e        = &interface->equilibrium;
+  Frozen                      *turn     = &interface->turn;
+  PetscReal                    where[4] = {0};
+  PetscFunctionBegin;
+  PetscCall(find_largest(interface, mesh, e->turn, e->turn_node, turn, where));
+  PetscCall(PetscSNPrintf(turn->words, sizeof(turn->words),
+                          "%s has turned by %.2g radians since its weights were made, at (%g, %g, %g): %.2g %% of the pressure there acts along "
+                          "the surface as it is now",
+                          interface->name, (double)turn->amount, (double)where[0], (double)where[1], (double)where[2],
+                          (double)(100 * PetscSinReal(turn->amount))));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -33,9 +55,9 @@ PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     Interface *interface = &contact->interfaces[i];
     if (interface->options.weights == STICKSLIP_WEIGHTS_CURRENT) continue;
-    PetscCall(measure(interface, contact->mesh));
+    PetscCall(measure_slide(interface, contact->mesh));
     if (interface->options.weights == STICKSLIP_WEIGHTS_REFERENCE) {
-      PetscCall(turned_measure(interface, contact->mesh));
+      PetscCall(measure_turn(interface, contact->mesh));
       continue;
     }
     *slid = PetscMax(*slid, interface->slide.amount / interface->slide.most);

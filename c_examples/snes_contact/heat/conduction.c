@@ -82,20 +82,8 @@ PetscErrorCode conduction_faces(Heat *heat)
 {
   PetscFunctionBegin;
   for (PetscInt k = 0; k < heat->n_supports; k++) {
-    HeatSupport    *support = &heat->supports[k];
-    char            label[2 * NAME_LENGTH];
-    const PetscInt *points;
-    IS              is;
-    if (!support->flows) continue;
-    PetscCall(PetscSNPrintf(label, sizeof(label), "heat.%s", support->name));
-    PetscCall(DMGetStratumIS(heat->mesh->dm, label, 1, &is));
-    if (!is) continue; /* none on this rank */
-    PetscCall(ISGetLocalSize(is, &support->n_faces));
-    PetscCall(PetscMalloc1(support->n_faces, &support->faces));
-    PetscCall(ISGetIndices(is, &points));
-    PetscCall(PetscArraycpy(support->faces, points, support->n_faces));
-    PetscCall(ISRestoreIndices(is, &points));
-    PetscCall(ISDestroy(&is));
+    HeatSupport *support = &heat->supports[k];
+    if (support->flows) PetscCall(plex_labelled(heat->mesh, "heat", support->name, &support->n_faces, &support->faces));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

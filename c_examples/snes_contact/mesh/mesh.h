@@ -140,6 +140,8 @@ PetscErrorCode plex_distribute(Mesh *mesh);
 PetscErrorCode plex_amid(DM dm, PetscInt n, const PetscInt points[], PetscInt *point);
 PetscErrorCode plex_cell_nodes(const Mesh *mesh, PetscInt cell, PetscInt *n, PetscInt points[]);
 PetscErrorCode plex_face_nodes(const Mesh *mesh, PetscInt face, PetscInt *n, PetscInt points[]);
+/* this rank's points with the label "kind.name"; the caller frees them */
+PetscErrorCode plex_labelled(const Mesh *mesh, const char *kind, const char *name, PetscInt *n, PetscInt **points);
 
 /* trees.c: what belongs together, as trees; at first each entry is its own parent */
 void     trees_join(PetscInt parent[], PetscInt a, PetscInt b);
@@ -205,5 +207,7 @@ PetscBool      rigid_is_analytic(Scene *scene, const char *body);
 PetscErrorCode rigid_create(Scene *scene, Body *body, Mesh *mesh);
 PetscErrorCode gmsh_shell_create(Scene *scene, const char *body, Mesh *shell);
 PetscErrorCode stl_create(Scene *scene, const char *body, Mesh *shell);
+/* in PetscTimSort(): of edges, or whatever begins with the numbers of its ends, `low` and `high` */
+int            orient_compare(const void *a, const void *b, void *context);
 PetscErrorCode orient_outward(Scene *scene, const char *body, const Mesh *shell);
 #endif

@@ -18,12 +18,12 @@ typedef struct {
   PetscInt  *turned;    /* -1: not known yet */
 } Faces;
 
-static int compare(const void *a, const void *b, void *context)
+int orient_compare(const void *a, const void *b, void *context)
 {
-  const Edge *one = a, *two = b;
+  const PetscInt *one = a, *two = b;
   (void)context;
-  if (one->low != two->low) return one->low < two->low ? -1 : 1;
-  return (one->high > two->high) - (one->high < two->high);
+  if (one[0] != two[0]) return one[0] < two[0] ? -1 : 1;
+  return (one[1] > two[1]) - (one[1] < two[1]);
 }
 
 static PetscErrorCode find_neighbours(Scene *scene, const char *body, const Mesh *shell, Faces *faces)
@@ -38,13 +38,13 @@ static PetscErrorCode find_neighbours(Scene *scene, const char *body, const Mesh
       edges[n++] = (Edge){.low = PetscMin(a, b), .high = PetscMax(a, b), .side = SIDES * f + k, .up = (PetscBool)(a < b)};
     }
   }
-  PetscCall(PetscTimSort(n, edges, sizeof(*edges), compare, NULL));
+  PetscCall(PetscTimSort(n, edges, sizeof(*edges), orient_compare, NULL));
   for (PetscInt k = 0; k < SIDES * faces->n; k++)
     faces->neighbour[k] = -1;
   for (PetscInt k = 0; k + 1 < n; k++) {
     const Edge *one = &edges[k], *two = &edges[k + 1];
-    if (compare(one, two, NULL)) continue;
-    if (k + 2 < n && !compare(one, &edges[k + 2], NULL)) {
+    if (orient_compare(one, two, NULL)) continue;
+    if (k + 2 < n && !orient_compare(one, &edges[k + 2], NULL)) {
       const PetscReal *x = shell->coordinates + 3 * one->low;
       scene_fail(scene, body, "file", "more than two faces meet at the edge near [%g, %g, %g].", (double)x[0], (double)x[1],
                  (double)x[2]);

@@ -68,3 +68,23 @@ PetscErrorCode plex_face_nodes(const Mesh *mesh, PetscInt face, PetscInt *n, Pet
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+PetscErrorCode plex_labelled(const Mesh *mesh, const char *kind, const char *name, PetscInt *n, PetscInt **points)
+{
+  const PetscInt *found;
+  char            label[2 * NAME_LENGTH];
+  IS              is;
+  PetscFunctionBegin;
+  *n      = 0;
+  *points = NULL;
+  PetscCall(PetscSNPrintf(label, sizeof(label), "%s.%s", kind, name));
+  PetscCall(DMGetStratumIS(mesh->dm, label, 1, &is));
+  if (!is) PetscFunctionReturn(PETSC_SUCCESS); /* none on this rank */
+  PetscCall(ISGetLocalSize(is, n));
+  PetscCall(PetscMalloc1(*n, points));
+  PetscCall(ISGetIndices(is, &found));
+  PetscCall(PetscArraycpy(*points, found, *n));
+  PetscCall(ISRestoreIndices(is, &found));
+  PetscCall(ISDestroy(&is));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -23,25 +23,6 @@ static PetscErrorCode middle(const Mesh *mesh, PetscInt point, PetscSection sect
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Of this rank's mesh, with a label; the caller frees them. */
-PetscErrorCode faces_labelled(const Physics *physics, const char *label, PetscInt *n, PetscInt **faces)
-{
-  const PetscInt *points;
-  IS              is;
-  PetscFunctionBegin;
-  *n     = 0;
-  *faces = NULL;
-  PetscCall(DMGetStratumIS(physics->mesh->dm, label, 1, &is));
-  if (!is) PetscFunctionReturn(PETSC_SUCCESS); /* none on this rank */
-  PetscCall(ISGetLocalSize(is, n));
-  PetscCall(PetscMalloc1(*n, faces));
-  PetscCall(ISGetIndices(is, &points));
-  PetscCall(PetscArraycpy(*faces, points, *n));
-  PetscCall(ISRestoreIndices(is, &points));
-  PetscCall(ISDestroy(&is));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* of this rank's mesh */
 PetscErrorCode face_look_at(const Physics *physics, PetscInt point, Face *face)
 {

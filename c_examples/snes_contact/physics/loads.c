@@ -15,16 +15,6 @@ PetscErrorCode loads_label(Physics *physics)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* this rank's faces under a load */
-static PetscErrorCode find_faces(const Physics *physics, Load *load)
-{
-  char label[2 * NAME_LENGTH];
-  PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(label, sizeof(label), "load.%s", load->name));
-  PetscCall(faces_labelled(physics, label, &load->n_faces, &load->faces));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static void add(PetscInt n, const PetscInt dofs[], const PetscReal f[], PetscReal factor, PetscScalar *forces)
 {
   for (PetscInt k = 0; k < 3 * n; k++)
@@ -79,7 +69,7 @@ PetscErrorCode loads_assemble(Physics *physics)
   for (PetscInt l = 0; l < physics->n_loads; l++) {
     Load        *load = &physics->loads[l];
     PetscScalar *forces;
-    PetscCall(find_faces(physics, load));
+    PetscCall(plex_labelled(physics->mesh, "load", load->name, &load->n_faces, &load->faces));
     PetscCall(VecDuplicate(physics->u_local, &load->forces));
     PetscCall(VecZeroEntries(load->forces));
     if (load->follows) continue;

@@ -264,7 +264,6 @@ typedef struct {
   PetscReal X[3 * FACE_NODES], sign;
 } Face;
 PetscErrorCode face_look_at(const Physics *physics, PetscInt point, Face *face);
-PetscErrorCode faces_labelled(const Physics *physics, const char *label, PetscInt *n, PetscInt **faces);
 PetscBool      loads_follow(const Physics *physics); /* is there a follower pressure? */
 PetscErrorCode loads_values(Physics *physics);       /* at physics->t and u_local, into f_external */
 PetscErrorCode loads_stiffness(Physics *physics, Mat matrix); /* adds what forces of followers differ by */

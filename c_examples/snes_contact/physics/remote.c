@@ -17,12 +17,6 @@ typedef struct {
   PetscReal weight, middle[3], T[9], turn[3];
 } Spread;
 
-static void cross(const PetscReal a[3], const PetscReal b[3], PetscReal c[3])
-{
-  for (int i = 0; i < 3; i++)
-    c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
-
 /* T w = m; in the plane about z alone */
 static void solve(const Physics *physics, const PetscReal T[9], const PetscReal m[3], PetscReal w[3])
 {
@@ -33,7 +27,7 @@ static void solve(const Physics *physics, const PetscReal T[9], const PetscReal 
     return;
   }
   for (int i = 0; i < 3; i++)
-    cross(T + 3 * ((i + 1) % 3), T + 3 * ((i + 2) % 3), rows[i]);
+    space_cross(T + 3 * ((i + 1) % 3), T + 3 * ((i + 2) % 3), rows[i]);
   for (int i = 0; i < 3; i++)
     determinant += T[i] * rows[0][i];
   for (int i = 0; i < 3; i++)
@@ -80,7 +74,7 @@ static void add_sums(PetscReal weight, const PetscReal r[3], PetscInt at, void *
   if (!all->u) return;
   for (int i = 0; i < 3; i++)
     u[i] = PetscRealPart(all->u[at + i]);
-  cross(r, u, turn);
+  space_cross(r, u, turn);
   for (int i = 0; i < 3; i++)
     all->sums[TURN + i] += weight * turn[i];
 }
@@ -122,7 +116,7 @@ static void moment_of(const Load *load, const Spread *spread, PetscReal moment[3
   PetscReal arm[3];
   for (int i = 0; i < 3; i++)
     arm[i] = load->given_point ? load->point[i] - spread->middle[i] : 0;
-  cross(arm, load->force, moment);
+  space_cross(arm, load->force, moment);
   for (int i = 0; i < 3; i++)
     moment[i] += load->moment[i];
 }
@@ -136,7 +130,7 @@ static void add_forces(PetscReal weight, const PetscReal r[3], PetscInt at, void
 {
   const Nodal *nodal = context;
   PetscReal    f[3];
-  cross(nodal->turn, r, f);
+  space_cross(nodal->turn, r, f);
   for (int i = 0; i < 3; i++)
     nodal->forces[at + i] += weight * (nodal->force[i] + f[i]);
 }

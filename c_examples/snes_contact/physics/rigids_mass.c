@@ -22,14 +22,6 @@ typedef struct {
   PetscBool up; /* from low to high */
 } Side;
 
-static int compare(const void *a, const void *b, void *context)
-{
-  const Side *one = a, *two = b;
-  (void)context;
-  if (one->low != two->low) return one->low < two->low ? -1 : 1;
-  return (one->high > two->high) - (one->high < two->high);
-}
-
 /* Does the shell enclose a volume: is each edge of a face the edge of one other, which goes the other way? In the plane the faces are
  * edges, and their ends meet: the side of an end is that of its vertex with itself. */
 static PetscErrorCode encloses(const Shell *shell, PetscInt dimension, PetscBool *closed)
@@ -45,11 +37,11 @@ static PetscErrorCode encloses(const Shell *shell, PetscInt dimension, PetscBool
       sides[n++] = (Side){.low = PetscMin(a, b), .high = PetscMax(a, b), .up = dimension == 3 ? (PetscBool)(a < b) : (PetscBool)(k == 0)};
     }
   }
-  PetscCall(PetscTimSort(n, sides, sizeof(*sides), compare, NULL));
+  PetscCall(PetscTimSort(n, sides, sizeof(*sides), orient_compare, NULL));
   *closed = (PetscBool)(n > 0 && n % 2 == 0);
   for (PetscInt k = 0; k < n && *closed; k += 2)
-    *closed = (PetscBool)(!compare(&sides[k], &sides[k + 1], NULL) && sides[k].up != sides[k + 1].up &&
-                          (k + 2 == n || compare(&sides[k], &sides[k + 2], NULL)));
+    *closed = (PetscBool)(!orient_compare(&sides[k], &sides[k + 1], NULL) && sides[k].up != sides[k + 1].up &&
+                          (k + 2 == n || orient_compare(&sides[k], &sides[k + 2], NULL)));
   PetscCall(PetscFree(sides));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -110,7 +102,7 @@ static PetscErrorCode measure(Scene *scene, const Mesh *mesh, const Body *body, 
 {
   const Shell *shell   = &body->shell;
   PetscReal    largest = 0;
-  PetscBool    closed;
+  PetscBool    closed = PETSC_FALSE;
   PetscFunctionBegin;
   for (PetscInt f = 0; f < shell->n_faces; f++) {
     const PetscInt m = shell->offsets[f + 1] - shell->offsets[f];

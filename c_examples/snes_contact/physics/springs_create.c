@@ -1,10 +1,8 @@
 /* The nodes of springs, once the mesh is distributed. */
 #include "physics/springs.h"
 
-static void name_label(const Spring *spring, int end, char label[2 * NAME_LENGTH])
-{
-  PetscCallAbort(PETSC_COMM_SELF, PetscSNPrintf(label, 2 * NAME_LENGTH, "spring%d.%s", end, spring->name));
-}
+/* Labels "spring0.name" and "spring1.name" are of the faces at either end. */
+static const char *const ENDS[2] = {"spring0", "spring1"};
 
 PetscErrorCode springs_label(Physics *physics)
 {
@@ -13,7 +11,7 @@ PetscErrorCode springs_label(Physics *physics)
     const Spring *spring = &physics->springs->spring[s];
     char          label[2 * NAME_LENGTH];
     for (int e = 0; e < 2; e++) {
-      name_label(spring, e, label);
+      PetscCall(PetscSNPrintf(label, sizeof(label), "%s.%s", ENDS[e], spring->name));
       if (spring->ends[e].surface) PetscCall(plex_label_faces(physics->mesh, label, spring->ends[e].surface));
       for (PetscInt k = 0; k < spring->n_surfaces && spring->per_area && !e; k++)
         PetscCall(plex_label_faces(physics->mesh, label, spring->surfaces[k]));
@@ -24,11 +22,9 @@ PetscErrorCode springs_label(Physics *physics)
 
 static PetscErrorCode find_faces(const Physics *physics, Spring *spring)
 {
-  char      label[2 * NAME_LENGTH];
   PetscInt *points;
   PetscFunctionBegin;
-  name_label(spring, 0, label);
-  PetscCall(faces_labelled(physics, label, &spring->n_faces, &points));
+  PetscCall(plex_labelled(physics->mesh, ENDS[0], spring->name, &spring->n_faces, &points));
   PetscCall(PetscMalloc1(spring->n_faces, &spring->faces));
   for (PetscInt k = 0; k < spring->n_faces; k++) {
     SpringFace *one = &spring->faces[k];
@@ -43,14 +39,14 @@ static PetscErrorCode find_faces(const Physics *physics, Spring *spring)
 }
 
 /* Into a local vector: at the first component of each node here the area that it stands for; complete at owned ones. */
-static PetscErrorCode weigh_surface(Physics *physics, const char *label, Vec weights)
+static PetscErrorCode weigh_surface(Physics *physics, const Spring *spring, int end, Vec weights)
 {
   static const PetscReal along[3] = {1, 0, 0};
   PetscInt               n, *points;
   PetscScalar           *w;
   PetscFunctionBegin;
   PetscCall(VecZeroEntries(weights));
-  PetscCall(faces_labelled(physics, label, &n, &points));
+  PetscCall(plex_labelled(physics->mesh, ENDS[end], spring->name, &n, &points));
   PetscCall(VecGetArray(weights, &w));
   for (PetscInt k = 0; k < n; k++) {
     Face      face;
@@ -128,13 +124,11 @@ static PetscErrorCode gather(const Physics *physics, PetscInt n, const EndNode n
 static PetscErrorCode find_nodes(Physics *physics, const Spring *spring, int e, Vec weights, SpringEnd *end)
 {
   const PetscScalar *w = NULL;
-  char               label[2 * NAME_LENGTH];
   EndNode           *nodes;
   PetscInt           n;
   PetscFunctionBegin;
-  name_label(spring, e, label);
   if (end->vertex < 0) {
-    PetscCall(weigh_surface(physics, label, weights));
+    PetscCall(weigh_surface(physics, spring, e, weights));
     PetscCall(VecGetArrayRead(weights, &w));
   }
   PetscCall(PetscMalloc1(physics->mesh->n_points, &nodes));

@@ -3,26 +3,17 @@
 
 PetscErrorCode support_visit(const Physics *physics, const Support *support, EntryVisit action, void *context)
 {
-  const Mesh     *mesh = physics->mesh;
-  char            label[2 * NAME_LENGTH];
-  const PetscInt *points;
-  PetscInt        n, at;
-  IS              is;
+  PetscInt n, *points, at;
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(label, sizeof(label), "support.%s", support->name));
-  PetscCall(DMGetStratumIS(mesh->dm, label, 1, &is));
-  if (!is) PetscFunctionReturn(PETSC_SUCCESS); /* no such vertex on this rank */
-  PetscCall(ISGetLocalSize(is, &n));
-  PetscCall(ISGetIndices(is, &points));
+  PetscCall(plex_labelled(physics->mesh, "support", support->name, &n, &points));
   for (PetscInt k = 0; k < n; k++) {
-    const PetscBool owned = (PetscBool)!physics->unknowns.ghost[mesh->here[points[k]]];
+    const PetscBool owned = (PetscBool)!physics->unknowns.ghost[physics->mesh->here[points[k]]];
     PetscCall(PetscSectionGetOffset(physics->unknowns.section, points[k], &at));
     for (int i = 0; i < 3; i++) {
       if (support->mask & (1 << i)) action(support, at + i, i, owned, context);
     }
   }
-  PetscCall(ISRestoreIndices(is, &points));
-  PetscCall(ISDestroy(&is));
+  PetscCall(PetscFree(points));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

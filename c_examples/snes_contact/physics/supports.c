@@ -9,18 +9,10 @@ static void rotate(const PetscReal w[3], PetscReal x[3])
   const PetscReal half = PetscSinReal(0.5 * angle), s = angle > 0 ? PetscSinReal(angle) / angle : 1,
                   c = angle > 0 ? 2 * PetscSqr(half / angle) : 0.5;
   PetscReal wx[3], wwx[3];
-  for (int i = 0; i < 3; i++)
-    wx[i] = w[(i + 1) % 3] * x[(i + 2) % 3] - w[(i + 2) % 3] * x[(i + 1) % 3];
-  for (int i = 0; i < 3; i++)
-    wwx[i] = w[(i + 1) % 3] * wx[(i + 2) % 3] - w[(i + 2) % 3] * wx[(i + 1) % 3];
+  space_cross(w, x, wx);
+  space_cross(w, wx, wwx);
   for (int i = 0; i < 3; i++)
     x[i] += s * wx[i] + c * wwx[i];
-}
-
-static void cross(const PetscReal a[3], const PetscReal b[3], PetscReal c[3])
-{
-  for (int i = 0; i < 3; i++)
-    c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
 /* before it is turned */
@@ -76,10 +68,10 @@ static void prescribed_rate(const Support *support, PetscReal t, int sides, Pets
       spin[i]   = turns[side] * support->rotate[i];
       moving[i] = slopes[side] * b[i];
     }
-    cross(spin, x, turning);
+    space_cross(spin, x, turning);
     for (int i = 0; i < 3; i++)
       again[i] = 2 * moving[i] + turning[i];
-    cross(spin, again, bent);
+    space_cross(spin, again, bent);
     for (int i = 0; i < 3; i++)
       rate[i] += share * (twice ? bent[i] : moving[i] + turning[i]);
   }
@@ -140,7 +132,6 @@ static PetscErrorCode visit(Physics *physics, Vec local, PetscReal t, SupportMot
   Vec                coordinate_vector;
   const PetscScalar *coordinates, *now;
   PetscScalar       *array;
-  char               label[2 * NAME_LENGTH];
 
   PetscFunctionBegin;
   PetscCall(DMGetCoordinateSection(mesh->dm, &coordinate_section));
@@ -149,16 +140,10 @@ static PetscErrorCode visit(Physics *physics, Vec local, PetscReal t, SupportMot
   PetscCall(VecGetArrayRead(physics->u_local, &now));
   PetscCall(VecGetArray(local, &array));
   for (PetscInt s = 0; s < physics->n_supports; s++) {
-    Support        *support = &physics->supports[s];
-    PetscInt        n;
-    const PetscInt *points;
-    IS              is;
+    Support  *support = &physics->supports[s];
+    PetscInt  n, *points;
     if (support->timed && !support->active) continue;
-    PetscCall(PetscSNPrintf(label, sizeof(label), "support.%s", support->name));
-    PetscCall(DMGetStratumIS(mesh->dm, label, 1, &is));
-    if (!is) continue; /* no such vertex on this rank */
-    PetscCall(ISGetLocalSize(is, &n));
-    PetscCall(ISGetIndices(is, &points));
+    PetscCall(plex_labelled(mesh, "support", support->name, &n, &points));
     for (PetscInt k = 0; k < n; k++) {
       PetscInt        at, offset;
       PetscReal       X[3];
@@ -183,8 +168,7 @@ static PetscErrorCode visit(Physics *physics, Vec local, PetscReal t, SupportMot
       vertex.dofs = array + offset;
       action(support, &vertex);
     }
-    PetscCall(ISRestoreIndices(is, &points));
-    PetscCall(ISDestroy(&is));
+    PetscCall(PetscFree(points));
   }
   PetscCall(VecRestoreArray(local, &array));
   PetscCall(VecRestoreArrayRead(physics->u_local, &now));
@@ -268,20 +252,12 @@ PetscErrorCode supports_turning(const Physics *physics, PetscInt support_of[])
     support_of[p] = -1;
   for (PetscInt s = 0; s < physics->n_supports; s++) {
     const PetscReal *w = physics->supports[s].rotate;
-    char             label[2 * NAME_LENGTH];
-    PetscInt         n;
-    const PetscInt  *points;
-    IS               is;
+    PetscInt         n, *points;
     if ((w[0] == 0 && w[1] == 0 && w[2] == 0) || (physics->supports[s].timed && !physics->supports[s].active)) continue;
-    PetscCall(PetscSNPrintf(label, sizeof(label), "support.%s", physics->supports[s].name));
-    PetscCall(DMGetStratumIS(mesh->dm, label, 1, &is));
-    if (!is) continue; /* no such vertex on this rank */
-    PetscCall(ISGetLocalSize(is, &n));
-    PetscCall(ISGetIndices(is, &points));
+    PetscCall(plex_labelled(mesh, "support", physics->supports[s].name, &n, &points));
     for (PetscInt k = 0; k < n; k++)
       support_of[physics->parts.of_vertex[mesh->here[points[k]]]] = s;
-    PetscCall(ISRestoreIndices(is, &points));
-    PetscCall(ISDestroy(&is));
+    PetscCall(PetscFree(points));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, support_of, (PetscMPIInt)physics->parts.n, MPIU_INT, MPI_MAX, PETSC_COMM_WORLD));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -17,6 +17,9 @@ PetscInt  space_dimension(const Space *space);
 /* of what an area of a model stands for, at its radius x: the thickness, or 2 pi x; 1 in a solid */
 PetscReal space_measure(const Space *space, PetscReal x);
 
+/* c = a x b */
+void space_cross(const PetscReal a[3], const PetscReal b[3], PetscReal c[3]);
+
 /* space_read.c */
 void space_read(Scene *scene, Space *space);
 

@@ -31,6 +31,14 @@ def coordinates(value: ArrayLike) -> np.ndarray:
     return given("coordinates", value, value.shape)
 
 
+def _check_shape(name: str, value: np.ndarray, shape: tuple) -> None:
+    """Refuses what has neither this shape nor as many entries in one row."""
+    row = (int(np.prod(shape)),)
+    if value.shape not in (shape, row):
+        allowed = f"{shape}" if shape == row else f"{shape} or {row}"
+        raise ValueError(f"{name}: shape {value.shape}, {allowed} is needed")
+
+
 def given(name: str, value: ArrayLike, shape: tuple, dtype=np.float64) -> np.ndarray:
     """An input of this shape, or with as many entries in one row.
 
@@ -41,9 +49,7 @@ def given(name: str, value: ArrayLike, shape: tuple, dtype=np.float64) -> np.nda
         raise TypeError(f"{name}: dtype {value.dtype}, {np.dtype(dtype)} is needed")
     if not value.flags.c_contiguous:
         raise ValueError(f"{name}: not in C order, numpy.ascontiguousarray makes it so")
-    size = int(np.prod(shape))
-    if value.shape != shape and value.shape != (size,):
-        raise ValueError(f"{name}: shape {value.shape}, {shape} or ({size},) is needed")
+    _check_shape(name, value, shape)
     if np.dtype(dtype).kind == "f" and not np.isfinite(value).all():
         raise ValueError(f"{name}: entry {int(np.argmin(np.isfinite(value).ravel()))} is NaN or infinite")
     return value
@@ -57,9 +63,7 @@ def output(name: str, value, shape: tuple, dtype=np.float64) -> np.ndarray:
         raise TypeError(f"{name}: {type(value).__name__}, an ndarray is needed")
     if value.dtype != dtype or not value.flags.c_contiguous:
         raise TypeError(f"{name}: {np.dtype(dtype)} in C order is needed")
-    size = int(np.prod(shape))
-    if value.shape not in (shape, (size,)):
-        raise ValueError(f"{name}: shape {value.shape}, {shape} or ({size},) is needed")
+    _check_shape(name, value, shape)
     if not value.flags.writeable:
         raise ValueError(f"{name}: read-only, and the call writes to it")
     return value

@@ -278,7 +278,7 @@ impl Options {
             return Err(Error::new(Kind::Unsupported, text));
         }
         if self.keeps_overlaps() && self.slip == SlipMeasure::Paper {
-            let text = "STICKSLIP_SLIP_PAPER with STICKSLIP_WEIGHTS_PERSISTENT: the work of friction would not be that of its slip; take STICKSLIP_SLIP_OBJECTIVE or INCREMENT";
+            let text = "STICKSLIP_SLIP_PAPER with STICKSLIP_WEIGHTS_PERSISTENT: the work of friction would not be that of its slip; take STICKSLIP_SLIP_OBJECTIVE or STICKSLIP_SLIP_INCREMENT";
             return Err(Error::new(Kind::Unsupported, text));
         }
         if self.decision != Decision::Nodes {
@@ -305,7 +305,7 @@ impl Options {
             None
         } else if !matches!(self.friction, Friction::None | Friction::Coulomb) {
             Some(
-                "STICKSLIP_DECISION_POINTS with a law that is not Coulomb's, or tied; take STICKSLIP_FRICTION_COULOMB or NONE, or STICKSLIP_DECISION_NODES",
+                "STICKSLIP_DECISION_POINTS with a law that is not Coulomb's, or tied; take STICKSLIP_FRICTION_COULOMB or STICKSLIP_FRICTION_NONE, or STICKSLIP_DECISION_NODES",
             )
         } else if self.friction == Friction::Coulomb && self.weights == Weights::Current {
             Some(

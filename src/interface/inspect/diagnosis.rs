@@ -6,6 +6,7 @@
 //! over displacements are of the order of M_A times the row scale, those over multipliers 1 / r_A, here times r_A M_A.
 //! What couples several nodes (more multipliers than displacements to react) is not seen node by node.
 
+use super::equilibrium::Largest;
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::{Facet, Plane, Vec3};
 use crate::interface::data::options::{MultiplierBasis, Scheme, Weights};
@@ -29,6 +30,8 @@ pub const SUSPECT: f64 = 1e-4;
 const LITTLE: f64 = 1e-3;
 /// Rows below this are rounding of rows that vanish: the root of what products of rows are known to.
 const VANISHING: f64 = 1e-7;
+/// A turn beyond this is told [rad]: so much of the pressure acts as a shear then, which is about what friction is known to.
+const TURN_TOLD: f64 = 0.03;
 /// Suspects that the text tells of.
 const TOLD: usize = 3;
 
@@ -85,6 +88,8 @@ pub struct Diagnosis {
     pub angle: Option<WorstPair>,
     /// Largest difference of a weight from that of the degree-10 rule, over the non-mortar facet's area [-].
     pub error: Option<WorstPair>,
+    /// How far the surface has turned since weights of the reference were made: [`Equilibrium::turn`](super::equilibrium::Equilibrium).
+    pub turn: Largest,
     /// Least ratio first.
     pub suspects: Vec<Suspect>,
 }
@@ -118,6 +123,15 @@ impl Diagnosis {
                 let (one, two) = (one + base, two + base);
                 text.append(format_args!(" {what}: {value:.1e} {unit}, facets {one} and {two}."))?;
             }
+        }
+        if let Largest { value, node: Some(node), .. } = self.turn
+            && value > TURN_TOLD
+        {
+            text.append(format_args!(
+                " The surface has turned by {value:.2} rad since weights of the reference were made, at node {}: this part of the \
+                 pressure acts along it. Weights of now turn with it.",
+                node + base
+            ))?;
         }
         for Suspect { node, direction: d, ratio, cause } in self.suspects.iter().take(TOLD) {
             let why = match cause {
@@ -228,6 +242,7 @@ pub fn diagnosis<const N: usize>(
         warp: None,
         angle: None,
         error: None,
+        turn: Largest::default(),
         suspects,
     };
     worst_pairs(given, pairs, (x1, x2), &mut diagnosis);

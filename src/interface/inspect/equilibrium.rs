@@ -5,6 +5,11 @@
 //! against h p / E, p the largest traction: a violation of a 1e-9th of that changes tractions by 1e-9 p. Without a
 //! modulus it counts against h. Positions are rounded: what their last digits make of a gap does not count, nor what
 //! that makes of a traction.
+//!
+//! Frozen weights may belong to a point no more that is in equilibrium with them: how far surfaces have slid or turned since they were made
+//! is told beside it. Where a surface has turned by theta since weights of the reference were made, a pressure p goes on acting along its
+//! first normal: p sin(theta) acts along the surface as it is now, a shear that no friction has allowed, and p (1 - cos(theta)) is missing.
+//! Both sides turning together makes no difference.
 
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
@@ -17,6 +22,7 @@ use crate::interface::stages::own::{At, special};
 use crate::interface::stages::sums::NodeSums;
 use crate::law::{Measure, NodeResponse, Violation};
 use crate::memory;
+use crate::normal;
 use nalgebra::SVector;
 
 /// How many roundings of the largest coordinate may meet in a gap or a slip: a difference of two sums over some nodes,
@@ -54,6 +60,9 @@ pub struct Equilibrium {
     pub slip: Largest,
     /// No violation: how far apart along the surface a traction acts on the two sides, where weights are frozen `[L]`.
     pub slide: Largest,
+    /// No violation: the angle by which the surface has turned where weights are of the reference, by the part that the traction there is
+    /// of the largest one; over 1.
+    pub turn: Largest,
 }
 
 impl Largest {
@@ -67,14 +76,14 @@ impl Largest {
 }
 
 /// The distance of (x, lambda) from equilibrium. Nodes without any multiplier equation, and those whose
-/// multiplier acts elsewhere, have no part in it.
+/// multiplier acts elsewhere, have no part in it. `turned`: room.
 pub fn equilibrium<const N: usize>(
     given: Given<N>,
     (x1, x2): (&[Vec3], &[Vec3]),
     lambda: &[SVector<f64, N>],
     (sums, carried, responses): (&[NodeSums], &[bool], &[NodeResponse<N>]),
     scope: Scope,
-    scales: &Scales,
+    (scales, turned): (&Scales, &mut Vec<Vec3>),
 ) -> Result<Equilibrium> {
     let areas = &given.history().areas;
     let nodes = || (0..lambda.len()).filter(|&a| given.setup.has_multiplier(a) && given.setup.nodes.acts(a));
@@ -94,11 +103,16 @@ pub fn equilibrium<const N: usize>(
     let none = Largest { value: 0.0, scale: length_scale(least(&|a| given.size(a))), node: None };
     let options = &given.setup.options;
     let may_slide = options.friction.law().opens && options.weights != Weights::Current;
+    let may_turn = may_slide && options.weights == Weights::Reference;
+    if may_turn {
+        given.setup.nonmortar.add_normals(x1, turned)?;
+    }
     let mut all = Equilibrium {
         gap: none,
         traction: Largest { scale: traction, ..none },
         slip: none,
         slide: Largest { scale: if may_slide { least(&|a| given.facet_size(a)) } else { 0.0 }, ..none },
+        turn: Largest { scale: 1.0, ..none },
     };
 
     let shared =
@@ -141,8 +155,11 @@ pub fn equilibrium<const N: usize>(
         all.traction.offer(v.traction, traction, a);
         all.slip.offer(v.slip, length_scale(h), a);
         if may_slide && sum.coverage > given.least_coverage(a) && traction > 0.0 {
-            let slide = slid(&given.normal(a)?, sum) * (lambda[a].norm() * share / traction).min(1.0);
-            all.slide.offer(slide, given.facet_size(a), a);
+            let part = (lambda[a].norm() * share / traction).min(1.0);
+            all.slide.offer(slid(&given.normal(a)?, sum) * part, given.facet_size(a), a);
+            if may_turn && let Some(now) = memory::if_accepted(normal::nodal_normal(turned[a], a))? {
+                all.turn.offer(normal::angle(&given.history().normals[a], &now) * part, 1.0, a);
+            }
         }
     }
     Ok(all)

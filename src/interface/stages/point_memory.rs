@@ -30,9 +30,8 @@ struct Tractions<'a> {
 }
 
 impl<'a> Tractions<'a> {
-    /// Of the facet; `None`: it had no points.
-    fn of(facet: &PointFacet, before: &'a Points) -> Option<Tractions<'a>> {
-        let old = &before.facets[before.facets.binary_search_by_key(&facet.one, |old| old.one).ok()?];
+    /// Of a facet of that step; `None`: it had no points.
+    fn of(old: &PointFacet, before: &'a Points) -> Option<Tractions<'a>> {
         let (first, end) = (before.friction.of_pair(old.pairs[0]).start, before.friction.of_pair(old.pairs[1] - 1).end);
         let (points, answers) = (&before.friction.points[first..end], &before.friction.answers[first..end]);
         let (mut mass, mut force) = ([[0.0; MAX_CORNERS]; MAX_CORNERS], [[0.0; MAX_CORNERS]; 3]);
@@ -45,7 +44,7 @@ impl<'a> Tractions<'a> {
         }
         let mut field = [Vec3::zeros(); MAX_CORNERS];
         // A sliver determines no field: its points are carried as they are.
-        if let Ok(mass) = Mass::new(facet.n, &mass) {
+        if let Ok(mass) = Mass::new(old.n, &mass) {
             let solved = force.map(|f| mass.solve(&f));
             field = std::array::from_fn(|a| Vec3::from_fn(|i, _| solved[i][a]));
         }
@@ -72,6 +71,11 @@ impl<'a> Tractions<'a> {
 }
 
 impl Points {
+    /// The facet with this number; `None`: it has no pairs.
+    fn facet(&self, one: usize) -> Option<&PointFacet> {
+        self.facets.binary_search_by_key(&one, |facet| facet.one).ok().map(|k| &self.facets[k])
+    }
+
     /// z of the points of a step that begins with these multipliers after the step `before`, at whose start the non-mortar nodes were at
     /// `x1`. These points become those of the new step.
     pub fn remember<const N: usize>(
@@ -88,15 +92,15 @@ impl Points {
             along.store((free - normal * normal.transpose()) * multiplier::traction(lambda, normal))?;
         }
         for facet in &self.facets {
-            let old = Tractions::of(facet, before);
+            let facet_before = before.facet(facet.one);
+            let old = facet_before.and_then(|of| Tractions::of(of, before));
             let mut places = [[Vec3::zeros(); MAX_CORNERS]; 2];
             for (k, &a) in one.host_nodes(facet.one).iter().enumerate() {
                 (places[0][k], places[1][k]) = (x1[a], now[a]);
             }
             let [old_places, new_places] = [&places[0][..facet.n], &places[1][..facet.n]];
-            let turned_from =
-                before.facets.binary_search_by_key(&facet.one, |old| old.one).map(|k| before.facets[k].normal);
-            let spin = Spin::of(old_places, turned_from.unwrap_or(facet.normal), new_places, facet.normal);
+            let turned_from = facet_before.map_or(facet.normal, |of| of.normal);
+            let spin = Spin::of(old_places, turned_from, new_places, facet.normal);
             let points = facet.places().flat_map(|place| self.friction.of_pair(place));
             for (k, point) in points.map(|q| &self.friction.points[q]).enumerate() {
                 let traction = old.as_ref().map_or_else(Vec3::zeros, |old| old.at(&point.own, k));
@@ -172,7 +176,7 @@ mod tests {
             assert_eq!(carried.at(&point.own, k), answer.traction);
             assert_eq!(carried.at(&point.own, 0), answer.traction, "it is found, too, where it is not guessed");
         }
-        assert!(Tractions::of(&PointFacet { one: 6, ..facet() }, &whole).is_none(), "a facet without points");
+        assert!(whole.facet(5).is_some() && whole.facet(6).is_none(), "facet 6 has no points");
     }
 
     /// Three columns of points of a strip whose width is rounding determine no field: the next point's traction is taken.

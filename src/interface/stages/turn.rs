@@ -24,8 +24,7 @@ use crate::normal;
 
 /// The larger of `found` and a turn from one unit vector to another, with what has turned.
 fn larger(found: (f64, usize), from: &Vec3, to: &Vec3, what: usize) -> (f64, usize) {
-    // Exact at small angles, where the scalar product is not.
-    let angle = 2.0 * ((from - to).norm() / 2.0).min(1.0).asin();
+    let angle = normal::angle(from, to);
     if angle > found.0 { (angle, what) } else { found }
 }
 
@@ -95,18 +94,22 @@ fn refuse_angle(options: &Options, angle: f64, what: impl Fn() -> Text) -> Resul
     if angle <= options.turn_max {
         return Ok(());
     }
-    let measure = if options.follows_normals() {
-        "; with the normals of now this limit is for slip that is not measured objectively, and for nodes on a knife's edge"
+    // Of what weights of the reference have turned since then no step is a part.
+    let (since, remedy) = if options.effective_weights() == Weights::Reference {
+        (
+            "since the first configuration, which STICKSLIP_WEIGHTS_REFERENCE are of",
+            "take STICKSLIP_WEIGHTS_CURRENT, or a larger options.turn_max if that is meant; smaller steps are of no help",
+        )
+    } else if options.follows_normals() {
+        (
+            "since the last commit",
+            "take smaller steps; with the normals of now this limit is for slip that is not measured objectively, and for nodes on a knife's edge",
+        )
     } else {
-        ""
-    };
-    let since = if options.effective_weights() == Weights::Reference {
-        "since the first configuration (weights are of the reference)"
-    } else {
-        "since the last commit"
+        ("since the last commit", "take smaller steps")
     };
     let text = text!(
-        "{} has turned by {:.1} degrees {since}, more than the {:.1} that are allowed (options.turn_max): take smaller steps{measure}",
+        "{} has turned by {:.1} degrees {since}, more than the {:.1} that are allowed (options.turn_max): {remedy}",
         what(),
         angle.to_degrees(),
         options.turn_max.to_degrees()
