@@ -225,8 +225,8 @@ pub struct stickslip_options {
     pub multiplier_space: i32,
     /// STICKSLIP_MODEL_...: whether facets are of a model in space, or lines of a plane or axisymmetric one. With lines every array of
     /// vectors of this interface has two components a node in place of three: positions, forces, multipliers, normals,
-    /// directions; so have equations. Not with STICKSLIP_MORTAR_ANALYTIC, STICKSLIP_FORM_AUGMENTED, STICKSLIP_NORMALS_CURRENT,
-    /// STICKSLIP_TANGENT_FROZEN_NORMALS or element points (UNSUPPORTED).
+    /// directions; so have equations. The frame of an analytic mortar side has three points. Not with STICKSLIP_FORM_AUGMENTED,
+    /// STICKSLIP_NORMALS_CURRENT, STICKSLIP_TANGENT_FROZEN_NORMALS or element points (UNSUPPORTED).
     pub model: i32,
     /// Thickness of a plane model [L]; 0 (default): 1. 0 of other models.
     pub thickness: f64,
