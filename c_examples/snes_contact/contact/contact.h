@@ -429,6 +429,7 @@ void           equilibrium_accept(Contact *contact);
 PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t length);
 PetscErrorCode slide_accept(Contact *contact);
 /* turned.c: of one interface, at the place of the last evaluation */
+PetscBool      turned_offsets(const Interface *interface); /* tied, with offsets: these do not turn */
 PetscErrorCode turned_measure(Interface *interface, const Mesh *mesh);
 
 /* The library's status as a PETSc error, where a refusal is not something to recover from. */

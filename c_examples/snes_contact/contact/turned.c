@@ -1,7 +1,8 @@
 /* Weights of the reference have normals of the reference, too: the theory of small displacements. Where a surface turns by an angle theta
  * a pressure p goes on acting along its first normal, so that p sin(theta) of it acts along the surface as it is now, as a shear that no
  * law of friction has allowed, and p (1 - cos(theta)) is missing. Both sides turning together makes no difference. How far the non-mortar
- * facets that bear load have turned is measured here; an angle counts by the part that the traction there is of the largest one. */
+ * facets that bear load have turned is measured here; an angle counts by the part that the traction there is of the largest one. Offsets of
+ * tied surfaces are along the normals of the reference, too, whatever the weights: of an offset h the part h sin(theta) is along the surface. */
 #include "contact/contact.h"
 
 /* Twice the area of a facet times its normal, from its corners; of a line its length times the normal. */
@@ -64,6 +65,11 @@ static void measure_part(const Interface *interface, const double results[], Pet
   }
 }
 
+PetscBool turned_offsets(const Interface *interface)
+{
+  return (PetscBool)(interface->options.friction == STICKSLIP_FRICTION_TIED && interface->offsets.any);
+}
+
 PetscErrorCode turned_measure(Interface *interface, const Mesh *mesh)
 {
   const ContactPart *part     = &interface->part;
@@ -72,16 +78,17 @@ PetscErrorCode turned_measure(Interface *interface, const Mesh *mesh)
   double            *results;
   PetscFunctionBegin;
   turn->amount = 0;
-  if (interface->options.friction == STICKSLIP_FRICTION_TIED) PetscFunctionReturn(PETSC_SUCCESS); /* it turns with its facets */
+  if (interface->options.friction == STICKSLIP_FRICTION_TIED && !turned_offsets(interface))
+    PetscFunctionReturn(PETSC_SUCCESS); /* it turns with its facets */
   PetscCall(PetscMalloc1(N_RESULTS * part->n1, &results));
   PetscCall(contact_results(part, results));
   if (part->handle) measure_part(interface, results, &turn->amount, where);
   PetscCall(PetscFree(results));
   PetscCall(contact_largest(mesh, &turn->amount, sizeof(where), where));
   PetscCall(PetscSNPrintf(turn->words, sizeof(turn->words),
-                          "%s has turned by %.2g radians since its weights were made, at the facet at (%g, %g, %g): %.2g %% of the pressure "
+                          "%s has turned by %.2g radians since its weights were made, at the facet at (%g, %g, %g): %.2g %% of the %s "
                           "there acts along the surface as it is now",
                           interface->name, (double)turn->amount, (double)where[0], (double)where[1], (double)where[2],
-                          (double)(100 * PetscSinReal(turn->amount))));
+                          (double)(100 * PetscSinReal(turn->amount)), turned_offsets(interface) ? "offset" : "pressure"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -4,7 +4,7 @@
 //!
 //! Both sides count, each against its own normals of t_n, and a turn of both together too: what is frozen is fixed in
 //! space. With weights of the reference it is the whole turn since then, and of the non-mortar side alone, for nothing
-//! else is asked. Tied surfaces use no normals. Surfaces that were apart and still are may turn as they like.
+//! else is asked. Tied surfaces use no normals, but those with offsets, which act along the normals of the reference. Surfaces that were apart and still are may turn as they like.
 //!
 //! Normals that follow the motion cure this, and so there is no limit with them, but for what they do not cure: slip whose
 //! measure is fixed in space (any but the objective one), and nodes on a knife's edge, which keep nu(t_n).
@@ -38,7 +38,11 @@ pub fn refuse_turn<const N: usize>(
     sums: &mut Vec<Vec3>,
 ) -> Result<()> {
     let ((nonmortar, mortar), options) = (given.setup.surfaces(), &given.setup.options);
-    if !options.friction.law().opens || !shared && is_apart_at_both(given, x1, x2)? {
+    let turns_along = match options.friction.law().opens {
+        true => !shared && is_apart_at_both(given, x1, x2)?,
+        false => !offsets::are_there((nonmortar, mortar)),
+    };
+    if turns_along {
         return Ok(());
     }
     let follows =
@@ -100,13 +104,19 @@ fn refuse_angle(options: &Options, angle: f64, what: impl Fn() -> Text) -> Resul
     } else {
         ""
     };
-    let since = if options.effective_weights() == Weights::Reference {
-        "since the first configuration (weights are of the reference)"
-    } else {
-        "since the last commit"
+    let (since, cure) = match (options.friction.law().opens, options.effective_weights()) {
+        (false, _) => (
+            "since the first configuration, along whose normals offsets of tied surfaces act",
+            "mesh the interference or the gap, or allow more if the offsets are small",
+        ),
+        (true, Weights::Reference) => (
+            "since the first configuration (weights are of the reference)",
+            "take STICKSLIP_WEIGHTS_CURRENT or STICKSLIP_WEIGHTS_COMMITTED",
+        ),
+        (true, _) => ("since the last commit", "take smaller steps"),
     };
     let text = text!(
-        "{} has turned by {:.1} degrees {since}, more than the {:.1} that are allowed (options.turn_max): take smaller steps{measure}",
+        "{} has turned by {:.1} degrees {since}, more than the {:.1} that are allowed (options.turn_max): {cure}{measure}",
         what(),
         angle.to_degrees(),
         options.turn_max.to_degrees()
