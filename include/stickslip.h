@@ -2387,7 +2387,7 @@ int32_t stickslip_node_equilibrium(const struct stickslip_node *node,
 /// same. On several processes each handle needs those of all of its nodes.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, UNSUPPORTED (offsets of an analytic surface; normals of now with three multipliers and
-/// weak_coverage > 0; STICKSLIP_DECISION_POINTS with weights of now; STICKSLIP_WEIGHTS_PERSISTENT), and where pairs are sought anew those of `stickslip_interface_set_previous`.
+/// weak_coverage > 0; points that decide with weights of now; persistent weights), and where pairs are sought anew those of `stickslip_interface_set_previous`.
 /// Cost: a copy; where the largest offsets change, one search. Allocates.
 int32_t stickslip_interface_set_offsets(struct stickslip_interface *interface,
                                         const double *offsets1,
@@ -2529,7 +2529,7 @@ int32_t stickslip_rigid_destroy(struct stickslip_rigid **rigid);
 /// there are, and its numbers may change from step to step; another one begins with states 0, and no commit before it can be undone.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a number; an interface with another law), UNSUPPORTED (see the kinds;
-/// STICKSLIP_DECISION_POINTS).
+/// points that decide).
 /// That the direction has no part in the surface at a node is refused where the node is evaluated (INVALID_VALUE).
 /// Cost: nothing grows with the surface but the states; allocates them.
 int32_t stickslip_interface_set_law(struct stickslip_interface *interface,
@@ -2545,7 +2545,7 @@ int32_t stickslip_interface_set_law(struct stickslip_interface *interface,
 /// Evaluations refuse, and nothing has changed: an answer that is not finite (NOT_FINITE); a threshold below 0, one that falls
 /// where the pressure rises, or a return value but 0 (INVALID_VALUE). The message names the node.
 ///
-/// Errors: NULL_POINTER, INVALID_SIZE, INVALID_VALUE (an interface with another law), UNSUPPORTED (STICKSLIP_DECISION_POINTS).
+/// Errors: NULL_POINTER, INVALID_SIZE, INVALID_VALUE (an interface with another law), UNSUPPORTED (points that decide).
 /// Cost: the states; allocates them. In evaluations one call a closed node, of carriers of others one more.
 int32_t stickslip_interface_set_threshold(struct stickslip_interface *interface,
                                           stickslip_threshold threshold,
