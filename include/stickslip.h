@@ -656,7 +656,7 @@ typedef struct stickslip_options {
   /// How far a surface may turn from one commit to the next, in radians [-], where the normals are those of t_n. A commit
   /// refuses more with TURNED_TOO_FAR. With NORMALS_CURRENT only where slip is not measured by SLIP_OBJECTIVE, and at nodes on
   /// a knife's edge, which keep nu(t_n). Each side counts alone, in space; with WEIGHTS_REFERENCE the non-mortar side's
-  /// turn since the first configuration; tied surfaces may turn as they like. At most pi, which refuses nothing;
+  /// turn since the first configuration, as of tied surfaces with offsets; other tied ones may turn as they like. At most pi, which refuses nothing;
   /// 0 (default): pi / 9, 20 degrees. What a turn below it costs: docs/plug_in.md.
   double turn_max;
   /// With STICKSLIP_FRICTION_TRESCA the largest shear traction, > 0 [F/L^2]; else 0 (default).
@@ -671,8 +671,8 @@ typedef struct stickslip_options {
   int32_t multiplier_space;
   /// STICKSLIP_MODEL_...: whether facets are of a model in space, or lines of a plane or axisymmetric one. With lines every array of
   /// vectors of this interface has two components a node in place of three: positions, forces, multipliers, normals,
-  /// directions; so have equations. Not with STICKSLIP_MORTAR_ANALYTIC, STICKSLIP_FORM_AUGMENTED, STICKSLIP_NORMALS_CURRENT,
-  /// STICKSLIP_TANGENT_FROZEN_NORMALS or element points (UNSUPPORTED).
+  /// directions; so have equations. The frame of an analytic mortar side has three points. Not with STICKSLIP_FORM_AUGMENTED,
+  /// STICKSLIP_NORMALS_CURRENT, STICKSLIP_TANGENT_FROZEN_NORMALS or element points (UNSUPPORTED).
   int32_t model;
   /// Thickness of a plane model [L]; 0 (default): 1. 0 of other models.
   double thickness;
@@ -1079,9 +1079,9 @@ typedef struct stickslip_equilibrium {
   /// Output: the node of slide.
   int64_t slide_node;
   /// Output: how far the surface has turned since weights of the reference were made: the angle between a node's normals of then and of
-  /// now, times the part that its traction is of traction_scale; the largest. No violation, and 0 with all other weights, and of tied
-  /// surfaces. Pressure goes on acting along the first normals, so that this part of it acts along the surface as it is now, as a shear
-  /// that friction has not allowed; in radians [-].
+  /// now, times the part that its traction is of traction_scale; the largest. No violation, and 0 with all other weights. Pressure goes
+  /// on acting along the first normals, so that this part of it acts along the surface as it is now, as a shear that friction has
+  /// not allowed. Of tied surfaces offsets act along the first normals, whatever the weights: 0 without offsets. In radians [-].
   double turn;
   /// Output: the node of turn.
   int64_t turn_node;
@@ -2396,7 +2396,7 @@ int32_t stickslip_node_equilibrium(const struct stickslip_node *node,
 /// same. On several processes each handle needs those of all of its nodes.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, UNSUPPORTED (offsets of an analytic surface; normals of now with three multipliers and
-/// weak_coverage > 0), and where pairs are sought anew those of `stickslip_interface_set_previous`.
+/// weak_coverage > 0; points that decide with weights of now; persistent weights), and where pairs are sought anew those of `stickslip_interface_set_previous`.
 /// Cost: a copy; where the largest offsets change, one search. Allocates.
 int32_t stickslip_interface_set_offsets(struct stickslip_interface *interface,
                                         const double *offsets1,
@@ -2538,7 +2538,8 @@ int32_t stickslip_rigid_destroy(struct stickslip_rigid **rigid);
 /// of which kind they are: set it again after a restart, before the import. A law of the same kind goes on with the states that
 /// there are, and its numbers may change from step to step; another one begins with states 0, and no commit before it can be undone.
 ///
-/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a number; an interface with another law), UNSUPPORTED (see the kinds).
+/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a number; an interface with another law), UNSUPPORTED (see the kinds;
+/// points that decide).
 /// That the direction has no part in the surface at a node is refused where the node is evaluated (INVALID_VALUE).
 /// Cost: nothing grows with the surface but the states; allocates them.
 int32_t stickslip_interface_set_law(struct stickslip_interface *interface,
@@ -2554,7 +2555,7 @@ int32_t stickslip_interface_set_law(struct stickslip_interface *interface,
 /// Evaluations refuse, and nothing has changed: an answer that is not finite (NOT_FINITE); a threshold below 0, one that falls
 /// where the pressure rises, or a return value but 0 (INVALID_VALUE). The message names the node.
 ///
-/// Errors: NULL_POINTER, INVALID_SIZE, INVALID_VALUE (an interface with another law).
+/// Errors: NULL_POINTER, INVALID_SIZE, INVALID_VALUE (an interface with another law), UNSUPPORTED (points that decide).
 /// Cost: the states; allocates them. In evaluations one call a closed node, of carriers of others one more.
 int32_t stickslip_interface_set_threshold(struct stickslip_interface *interface,
                                           stickslip_threshold threshold,

@@ -56,9 +56,9 @@ pub struct stickslip_equilibrium {
     /// Output: the node of slide.
     pub slide_node: i64,
     /// Output: how far the surface has turned since weights of the reference were made: the angle between a node's normals of then and of
-    /// now, times the part that its traction is of traction_scale; the largest. No violation, and 0 with all other weights, and of tied
-    /// surfaces. Pressure goes on acting along the first normals, so that this part of it acts along the surface as it is now, as a shear
-    /// that friction has not allowed; in radians [-].
+    /// now, times the part that its traction is of traction_scale; the largest. No violation, and 0 with all other weights. Pressure goes
+    /// on acting along the first normals, so that this part of it acts along the surface as it is now, as a shear that friction has
+    /// not allowed. Of tied surfaces offsets act along the first normals, whatever the weights: 0 without offsets. In radians [-].
     pub turn: f64,
     /// Output: the node of turn.
     pub turn_node: i64,

@@ -214,7 +214,8 @@ fn read_law(law: *const stickslip_law) -> Result<Option<Own>> {
 /// of which kind they are: set it again after a restart, before the import. A law of the same kind goes on with the states that
 /// there are, and its numbers may change from step to step; another one begins with states 0, and no commit before it can be undone.
 ///
-/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a number; an interface with another law), UNSUPPORTED (see the kinds).
+/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a number; an interface with another law), UNSUPPORTED (see the kinds;
+/// points that decide).
 /// That the direction has no part in the surface at a node is refused where the node is evaluated (INVALID_VALUE).
 /// Cost: nothing grows with the surface but the states; allocates them.
 #[unsafe(no_mangle)]
@@ -238,7 +239,7 @@ pub unsafe extern "C" fn stickslip_interface_set_law(
 /// Evaluations refuse, and nothing has changed: an answer that is not finite (NOT_FINITE); a threshold below 0, one that falls
 /// where the pressure rises, or a return value but 0 (INVALID_VALUE). The message names the node.
 ///
-/// Errors: NULL_POINTER, INVALID_SIZE, INVALID_VALUE (an interface with another law).
+/// Errors: NULL_POINTER, INVALID_SIZE, INVALID_VALUE (an interface with another law), UNSUPPORTED (points that decide).
 /// Cost: the states; allocates them. In evaluations one call a closed node, of carriers of others one more.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_set_threshold(

@@ -36,7 +36,7 @@ pub const STICKSLIP_SIDE_MORTAR: i32 = 1;
 /// same. On several processes each handle needs those of all of its nodes.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, UNSUPPORTED (offsets of an analytic surface; normals of now with three multipliers and
-/// weak_coverage > 0), and where pairs are sought anew those of `stickslip_interface_set_previous`.
+/// weak_coverage > 0; points that decide with weights of now; persistent weights), and where pairs are sought anew those of `stickslip_interface_set_previous`.
 /// Cost: a copy; where the largest offsets change, one search. Allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_set_offsets(

@@ -210,7 +210,7 @@ pub struct stickslip_options {
     /// How far a surface may turn from one commit to the next, in radians [-], where the normals are those of t_n. A commit
     /// refuses more with TURNED_TOO_FAR. With NORMALS_CURRENT only where slip is not measured by SLIP_OBJECTIVE, and at nodes on
     /// a knife's edge, which keep nu(t_n). Each side counts alone, in space; with WEIGHTS_REFERENCE the non-mortar side's
-    /// turn since the first configuration; tied surfaces may turn as they like. At most pi, which refuses nothing;
+    /// turn since the first configuration, as of tied surfaces with offsets; other tied ones may turn as they like. At most pi, which refuses nothing;
     /// 0 (default): pi / 9, 20 degrees. What a turn below it costs: docs/plug_in.md.
     pub turn_max: f64,
     /// With STICKSLIP_FRICTION_TRESCA the largest shear traction, > 0 [F/L^2]; else 0 (default).
@@ -225,8 +225,8 @@ pub struct stickslip_options {
     pub multiplier_space: i32,
     /// STICKSLIP_MODEL_...: whether facets are of a model in space, or lines of a plane or axisymmetric one. With lines every array of
     /// vectors of this interface has two components a node in place of three: positions, forces, multipliers, normals,
-    /// directions; so have equations. Not with STICKSLIP_MORTAR_ANALYTIC, STICKSLIP_FORM_AUGMENTED, STICKSLIP_NORMALS_CURRENT,
-    /// STICKSLIP_TANGENT_FROZEN_NORMALS or element points (UNSUPPORTED).
+    /// directions; so have equations. The frame of an analytic mortar side has three points. Not with STICKSLIP_FORM_AUGMENTED,
+    /// STICKSLIP_NORMALS_CURRENT, STICKSLIP_TANGENT_FROZEN_NORMALS or element points (UNSUPPORTED).
     pub model: i32,
     /// Thickness of a plane model [L]; 0 (default): 1. 0 of other models.
     pub thickness: f64,

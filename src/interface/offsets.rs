@@ -70,6 +70,9 @@ impl<const N: usize> Contact<N> {
             return Ok(());
         }
         let (x1, x2) = (memory::copied(&self.step.history.x1)?, memory::copied(&self.step.history.x2)?);
+        if self.setup.has_point_friction() {
+            return self.set_previous(&x1, &x2); // other pairs have other points, none of which has slipped yet
+        }
         let states = memory::copied(&self.step.history.states)?;
         if weights == Weights::Reference {
             self.set_previous(&x1, &x2)?;

@@ -36,7 +36,7 @@ impl Motion {
     pub fn new(displacement: Vec3, theta: Vec3, turned: Matrix3<f64>, levers: Levers) -> Result<Motion> {
         if theta.norm() > PI {
             let text = text!(
-                "motion.rotation has the length {:.3}; at most pi is allowed: take what the body has turned by into turned (stickslip_rigid_turn) after each step",
+                "motion.rotation has the length {:.3}; at most pi is allowed: within Newton's method the iterate has run away, so take a smaller step; between steps take what the body has turned by into turned (stickslip_rigid_turn)",
                 theta.norm()
             );
             return Err(Error::new(Kind::InvalidValue, text));

@@ -24,6 +24,7 @@ def offsets(verdicts, driver):
     driver.output.mkdir(parents=True, exist_ok=True)
     patch(verdicts, driver)
     adjusted(verdicts, driver)
+    adjusted_by_two(verdicts, driver)
     ramp(verdicts, driver)
     rings(verdicts, driver)
     overflowing(verdicts, driver)
@@ -95,6 +96,44 @@ def adjusted(verdicts, driver):
         left = sum(row["adjusted"] == "left" for row in csv.DictReader(file))
     verdicts.near("adjust, beyond the tolerance: nodes left", left, 20, 0, "all")
     uniform(verdicts, "adjust, beyond the tolerance, with an offset", run)
+
+
+# Two runs of one mesh, over the largest pressure: Newton's tolerance.
+SAME_MESH = 1e-9
+
+
+def corner(edge, **interface):
+    """A block in a corner, `edge` away from floor and wall: one row of its nodes is on both of its interfaces."""
+    box = {"type": "box", "young": 1000, "poisson": 0.3, "small_strain": True}
+    middle = [1 / 3, 2 / 3, 1]
+    return {
+        "schema": 1,
+        "bodies": ["block", "wall", "floor"],
+        "block": {**box, "x": [edge, *middle], "y": [0, *middle], "z": [edge, *middle]},
+        "wall": {**box, "lower": [-1, 0, -1], "upper": [0, 1, 1], "cells": [2, 4, 4]},
+        "floor": {**box, "lower": [0, 0, -1], "upper": [1, 1, 0], "cells": [4, 4, 2]},
+        "supports": ["below", "left", "front"],
+        "below": {"surface": ["wall.zmin", "floor.zmin"], "components": ["z"]},
+        "left": {"surface": ["wall.xmin", "floor.xmax"], "components": ["x"]},
+        "front": {"surface": [f"{body}.ymin" for body in ("block", "wall", "floor")], "components": ["y"]},
+        "loads": ["press", "push"],
+        "press": {"surface": "block.zmax", "pressure": PRESSURE},
+        "push": {"surface": "block.xmax", "pressure": PRESSURE},
+        "interfaces": ["base", "side"],
+        "base": {"nonmortar": "block.zmin", "mortar": "floor.zmax", **interface},
+        "side": {"nonmortar": "block.xmin", "mortar": "wall.xmax", **interface},
+        "steps": {"count": 1},
+        "output": {"csv": "last"},
+    }
+
+
+def adjusted_by_two(verdicts, driver):
+    """Nodes that two interfaces put onto their mortar sides: each interface has them where both have put them."""
+    scenes = {"adjust_two_none": corner(0), "adjust_two": corner(GAP, adjust=2 * GAP)}
+    runs = [driver.run(write(scene, driver.output / f"{name}.yaml")) for name, scene in scenes.items()]
+    for name in ("base", "side"):
+        exact, found = (run.interface(name)["p_lumped"] for run in runs)
+        verdicts.below(f"adjusted by two interfaces, {name}: pressures", np.abs(found - exact).max() / exact.max(), SAME_MESH, "as meshed there")
 
 
 # Radii of three rings, steel, aluminium, steel, pressed into each other, turning, under pressure (Croccolo and Vincenzi); their

@@ -269,3 +269,18 @@ fn what_friction_at_points_does_not_go_with_is_refused_by_name() {
     let error = s.contact.set_law(Some(own)).unwrap_err();
     assert!(error.kind == Kind::Unsupported && error.message.contains("law of one's own"), "{error}");
 }
+
+/// Offsets that reach farther than those before have pairs sought anew, whose points have not slipped: it was refused, or every
+/// evaluation after it.
+#[test]
+fn offsets_before_the_first_commit_are_taken() {
+    for options in both(0.4) {
+        let mut s = scene(options, CELLS[0], FLAT, 3);
+        let (n, without) = (s.x1.len(), s.residual());
+        for offset in [-0.02, 0.01] {
+            s.contact.set_offsets([Some(vec![offset; n]), None]).unwrap();
+            let with = s.residual();
+            assert!(difference(&with, &without) > 0.0, "{offset}");
+        }
+    }
+}

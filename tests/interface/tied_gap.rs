@@ -3,6 +3,7 @@
 use crate::support::differences::Point;
 use crate::support::mesh::*;
 use nalgebra::{Rotation3, Unit};
+use stickslip::error::Kind;
 use stickslip::geometry::{AnalyticShape, Vec3};
 use stickslip::interface::{Contact, Extent, Form, Friction, NodeSums, Options, Surface};
 
@@ -262,5 +263,22 @@ fn closed_tied_surfaces_have_a_fixed_gap() {
         assert!(sums.iter().zip(&c.history().gap).all(|(sum, gap)| sum.gap_committed == *gap));
         let tangent = evaluate(&mut c, &(x1, x2, lambda.clone())).1;
         assert!(tangent == evaluate(&mut c, &(one.x.clone(), two.x.clone(), lambda)).1, "linear");
+    }
+}
+
+/// The offset of a tied surface acts along the normals of the first configuration: it does not turn with the bodies.
+#[test]
+fn tied_surfaces_with_offsets_are_refused_where_they_have_turned() {
+    for (offset, degrees, is_refused) in [(0.0, 40.0, false), (0.01, 10.0, false), (0.01, 25.0, true)] {
+        let mut s =
+            moved(&tied(Form::Multiplier), [Cells::Quads; 2], Roughness { warp: 0.0, jitter: 0.0, slide: 0.0 }, 3);
+        let n = s.x1.len();
+        s.interface.set_offsets([Some(vec![offset; n]), None]).unwrap();
+        let turn = Rotation3::new(Vec3::x() * f64::to_radians(degrees));
+        let [x1, x2] = [&s.x1, &s.x2].map(|x| x.iter().map(|x| turn * x).collect::<Vec<_>>());
+        match s.interface.commit(&x1, &x2, &s.lambda, None) {
+            Err(error) => assert!(is_refused && error.kind == Kind::TurnedTooFar, "{offset} {degrees}: {error}"),
+            Ok(()) => assert!(!is_refused, "{offset} {degrees}"),
+        }
     }
 }

@@ -65,6 +65,9 @@ PetscErrorCode surfaces_move(Contact *contact, const Interface *interface)
   PetscCall(PetscSFReduceEnd(interface->pieces, vector, interface->place, mesh->coordinates, MPI_REPLACE));
   PetscCallMPI(MPI_Type_free(&vector));
   PetscCall(pieces_copy(mesh, 3, mesh->coordinates));
+  /* Interfaces that were read before may have some of these nodes, too. */
+  for (PetscInt i = 0; &contact->interfaces[i] <= interface; i++)
+    PetscCall(fetch_places(mesh, &contact->interfaces[i]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -31,6 +31,12 @@ static PetscErrorCode measure_slide(Interface *interface, const Mesh *mesh)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Tied, with offsets: these act along the first normals, whatever the weights. */
+static PetscBool turned_offsets(const Interface *interface)
+{
+  return (PetscBool)(interface->options.friction == STICKSLIP_FRICTION_TIED && interface->offsets.any);
+}
+
 static PetscErrorCode measure_turn(Interface *interface, const Mesh *mesh)
 {
   const stickslip_equilibrium *e        = &interface->equilibrium;
@@ -39,10 +45,10 @@ static PetscErrorCode measure_turn(Interface *interface, const Mesh *mesh)
   PetscFunctionBegin;
   PetscCall(find_largest(interface, mesh, e->turn, e->turn_node, turn, where));
   PetscCall(PetscSNPrintf(turn->words, sizeof(turn->words),
-                          "%s has turned by %.2g radians since its weights were made, at (%g, %g, %g): %.2g %% of the pressure there acts along "
+                          "%s has turned by %.2g radians since its weights were made, at (%g, %g, %g): %.2g %% of the %s there acts along "
                           "the surface as it is now",
                           interface->name, (double)turn->amount, (double)where[0], (double)where[1], (double)where[2],
-                          (double)(100 * PetscSinReal(turn->amount))));
+                          (double)(100 * PetscSinReal(turn->amount)), turned_offsets(interface) ? "offset" : "pressure"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -54,7 +60,8 @@ PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t
   *slid = 0;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     Interface *interface = &contact->interfaces[i];
-    if (interface->options.weights == STICKSLIP_WEIGHTS_CURRENT) continue;
+    if (turned_offsets(interface)) PetscCall(measure_turn(interface, contact->mesh));
+    if (turned_offsets(interface) || interface->options.weights == STICKSLIP_WEIGHTS_CURRENT) continue;
     PetscCall(measure_slide(interface, contact->mesh));
     if (interface->options.weights == STICKSLIP_WEIGHTS_REFERENCE) {
       PetscCall(measure_turn(interface, contact->mesh));
@@ -70,14 +77,14 @@ PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode tell(PetscReal t, Frozen *frozen, const char *means, const char *key)
+static PetscErrorCode tell(PetscReal t, Frozen *frozen, const char *means, const char *instead, const char *key)
 {
   PetscFunctionBegin;
   if (frozen->told || !(frozen->amount > frozen->most)) PetscFunctionReturn(PETSC_SUCCESS);
   frozen->told = PETSC_TRUE;
   PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
-                         "snes_contact: warning: at t = %.6g %s. %s Take `weights: current`, or a larger `%s` (it is %g) if that is meant.\n",
-                         (double)t, frozen->words, means, key, (double)frozen->most));
+                         "snes_contact: warning: at t = %.6g %s. %s %s a larger `%s` (it is %g) if that is meant.\n", (double)t,
+                         frozen->words, means, instead, key, (double)frozen->most));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -87,13 +94,18 @@ PetscErrorCode slide_accept(Contact *contact)
   PetscFunctionBegin;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     Interface *interface = &contact->interfaces[i];
-    if (interface->options.weights != STICKSLIP_WEIGHTS_REFERENCE) continue;
+    if (turned_offsets(interface))
+      PetscCall(tell(contact->physics->t, &interface->turn,
+                     "Offsets of tied surfaces act along the normals that the surfaces had at first, and do not turn with the bodies.",
+                     "Mesh the interference or the gap, or take", "turn_max"));
+    if (turned_offsets(interface) || interface->options.weights != STICKSLIP_WEIGHTS_REFERENCE) continue;
     PetscCall(tell(contact->physics->t, &interface->slide,
                    "Weights of the reference know no sliding: contact is sought, and forces act on the mortar side, where the surfaces "
                    "were at first.",
-                   "slide_max"));
+                   "Take `weights: current`, or", "slide_max"));
     PetscCall(tell(contact->physics->t, &interface->turn,
-                   "Weights of the reference know no turn: pressure acts along the normals that the surfaces had at first.", "turn_max"));
+                   "Weights of the reference know no turn: pressure acts along the normals that the surfaces had at first.",
+                   "Take `weights: current`, or", "turn_max"));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -46,7 +46,7 @@ static PetscErrorCode read_body_load(Scene *scene, const Physics *physics, Load 
     load->bodies[b]  = PETSC_TRUE;
     rigids_check_load(scene, physics, load, names[k], forces, gravity, spins);
     if (!mesh->bodies[b].rigid && !(physics->materials[b].density > 0))
-      scene_fail(scene, names[k], "density", "this key is missing, which '%s' asks for.", load->name);
+      scene_fail(scene, names[k], "density", "'%s' asks for one above 0.", load->name);
   }
   strings_destroy(n, &names);
   mesh_rotate_vector(mesh, of->uniform);

@@ -219,7 +219,7 @@ void rigids_read_inertia(Scene *scene, const Mesh *mesh, const Support supports[
   const PetscInt turns = 7 << 3, all = (1 << RIGID_UNKNOWNS) - 1;
   const char    *name = mesh->bodies[rigid->body].name;
   if (rigid->held == all) return;
-  if (!(rigid->mass > 0)) scene_fail(scene, name, "mass", "this key is missing, or `density`: with `dynamics` it moves by its inertia.");
+  if (!(rigid->mass > 0)) scene_fail(scene, name, "mass", "one above 0 is needed, or `density`: with `dynamics` it moves by its inertia.");
   if ((rigid->held & turns) != turns) {
     read_inertia(scene, mesh, rigid);
     if (mesh->rotated) into_frame(mesh, rigid->inertia);

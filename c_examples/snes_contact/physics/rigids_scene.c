@@ -130,5 +130,5 @@ void rigids_check_load(Scene *scene, const Physics *physics, const Load *load, c
                key[0] == 'f' ? ", or acts on the node at a `point`" : "; a moment on a node is none");
   if (r >= 0 && spins) scene_fail(scene, load->name, "centrifugal", "'%s' is rigid, and has no such load.", body);
   if (r >= 0 && gravity && !(physics->rigids[r].mass > 0))
-    scene_fail(scene, body, "mass", "this key is missing, which '%s' asks for.", load->name);
+    scene_fail(scene, body, "mass", "'%s' asks for a mass above 0, or a `density`.", load->name);
 }

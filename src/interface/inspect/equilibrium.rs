@@ -9,11 +9,12 @@
 //! Frozen weights may belong to a point no more that is in equilibrium with them: how far surfaces have slid or turned since they were made
 //! is told beside it. Where a surface has turned by theta since weights of the reference were made, a pressure p goes on acting along its
 //! first normal: p sin(theta) acts along the surface as it is now, a shear that no friction has allowed, and p (1 - cos(theta)) is missing.
-//! Both sides turning together makes no difference.
+//! Both sides turning together makes no difference. Offsets of tied surfaces act along the first normals, whatever the weights.
 
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::interface::data::extent::Scope;
+use crate::interface::data::offsets;
 use crate::interface::data::options::Weights;
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::carried::{carriers_sums, multiplier_share};
@@ -103,7 +104,10 @@ pub fn equilibrium<const N: usize>(
     let none = Largest { value: 0.0, scale: length_scale(least(&|a| given.size(a))), node: None };
     let options = &given.setup.options;
     let may_slide = options.friction.law().opens && options.weights != Weights::Current;
-    let may_turn = may_slide && options.weights == Weights::Reference;
+    let may_turn = match options.friction.law().opens {
+        true => options.weights == Weights::Reference,
+        false => offsets::are_there(given.setup.surfaces()),
+    };
     if may_turn {
         given.setup.nonmortar.add_normals(x1, turned)?;
     }
@@ -154,9 +158,11 @@ pub fn equilibrium<const N: usize>(
         all.gap.offer(v.gap, length_scale(h), a);
         all.traction.offer(v.traction, traction, a);
         all.slip.offer(v.slip, length_scale(h), a);
-        if may_slide && sum.coverage > given.least_coverage(a) && traction > 0.0 {
+        if (may_slide || may_turn) && sum.coverage > given.least_coverage(a) && traction > 0.0 {
             let part = (lambda[a].norm() * share / traction).min(1.0);
-            all.slide.offer(slid(&given.normal(a)?, sum) * part, given.facet_size(a), a);
+            if may_slide {
+                all.slide.offer(slid(&given.normal(a)?, sum) * part, given.facet_size(a), a);
+            }
             if may_turn && let Some(now) = memory::if_accepted(normal::nodal_normal(turned[a], a))? {
                 all.turn.offer(normal::angle(&given.history().normals[a], &now) * part, 1.0, a);
             }

@@ -4,7 +4,8 @@
 //!
 //! Both sides count, each against its own normals of t_n, and a turn of both together too: what is frozen is fixed in
 //! space. With weights of the reference it is the whole turn since then, and of the non-mortar side alone, for nothing
-//! else is asked. Tied surfaces use no normals. Surfaces that were apart and still are may turn as they like.
+//! else is asked. Tied surfaces use no normals, but those with offsets, which act along the normals of the reference. Surfaces
+//! that were apart and still are may turn as they like.
 //!
 //! Normals that follow the motion cure this, and so there is no limit with them, but for what they do not cure: slip whose
 //! measure is fixed in space (any but the objective one), and nodes on a knife's edge, which keep nu(t_n).
@@ -37,7 +38,11 @@ pub fn refuse_turn<const N: usize>(
     sums: &mut Vec<Vec3>,
 ) -> Result<()> {
     let ((nonmortar, mortar), options) = (given.setup.surfaces(), &given.setup.options);
-    if !options.friction.law().opens || !shared && is_apart_at_both(given, x1, x2)? {
+    let turns_along = match options.friction.law().opens {
+        true => !shared && is_apart_at_both(given, x1, x2)?,
+        false => !offsets::are_there((nonmortar, mortar)),
+    };
+    if turns_along {
         return Ok(());
     }
     let follows =
@@ -94,8 +99,13 @@ fn refuse_angle(options: &Options, angle: f64, what: impl Fn() -> Text) -> Resul
     if angle <= options.turn_max {
         return Ok(());
     }
-    // Of what weights of the reference have turned since then no step is a part.
-    let (since, remedy) = if options.effective_weights() == Weights::Reference {
+    // Of what has turned since the first configuration no step is a part.
+    let (since, remedy) = if !options.friction.law().opens {
+        (
+            "since the first configuration, along whose normals offsets of tied surfaces act",
+            "mesh the interference or the gap, or take a larger options.turn_max if the offsets are small",
+        )
+    } else if options.effective_weights() == Weights::Reference {
         (
             "since the first configuration, which STICKSLIP_WEIGHTS_REFERENCE are of",
             "take STICKSLIP_WEIGHTS_CURRENT, or a larger options.turn_max if that is meant; smaller steps are of no help",
