@@ -20,6 +20,8 @@ const MODULUS: f64 = 30.0;
 const DIFFERENCES: f64 = 1e-7;
 /// Sums of some dozen products, over the largest.
 const ROUNDING: f64 = 1e-13;
+/// Much more than rhat times any gap here.
+const PRESSED: f64 = 100.0;
 const CELLS: [[Cells; 2]; 4] = [
     [Cells::Quads, Cells::Quads],
     [Cells::Triangles, Cells::Triangles],
@@ -112,6 +114,25 @@ fn tangents_of_lines_are_those_of_differences() {
             let mut s = moved_lines::<1>(&by_points(weights), [2, 2], measure, seed);
             let error = s.difference_error();
             assert!(error <= DIFFERENCES, "{measure:?} {weights:?} {seed}: {error:e}");
+        }
+    }
+}
+
+/// With weights that are held and all facets closed the residual is linear in positions and multipliers: the tangent says exactly what any
+/// step changes, and what it has not (`tangent/slopes.rs`) is nothing.
+#[test]
+fn tangents_of_closed_facets_are_exact_over_steps_of_any_size() {
+    for (weights, cells) in [Weights::Committed, Weights::Reference].into_iter().flat_map(|w| CELLS.map(|c| (w, c))) {
+        for (slide, seed) in [(0.02, 3), (0.3, 8), (1.3, 5)] {
+            let mut s = scene(by_points(weights), cells, Roughness { warp: 0.03, jitter: 0.08, slide }, seed);
+            s.lambda.iter_mut().for_each(|lambda| lambda[0] -= PRESSED);
+            let [_, cut, closed] = s.shares();
+            assert!(cut == 0 && closed > 3, "{weights:?} {seed}: {closed} closed nodes, {cut} cut ones");
+            let (mut random, Scene { contact, x1, x2, lambda }) = (Random(seed + 1), &mut s);
+            let mut point = Point { contact, x1, x2, lambda };
+            let step: Vec<_> = (0..point.unknowns()).map(|_| 0.1 * random.next()).collect();
+            let error = point.linear_error(&step);
+            assert!(error <= ROUNDING, "{weights:?} {seed}: {error:e}");
         }
     }
 }

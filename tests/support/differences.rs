@@ -73,6 +73,21 @@ impl<const N: usize> Point<'_, N> {
         k
     }
 
+    /// How far the residual is from linear over this step of all unknowns, over its largest entry at the step's end.
+    pub fn linear_error(&mut self, step: &[f64]) -> f64 {
+        let (k, n) = (self.tangent(), self.unknowns());
+        let z = self.values();
+        let moved: Vec<_> = z.iter().zip(step).map(|(z, d)| z + d).collect();
+        let (before, after) = (self.residual(&z), self.residual(&moved));
+        let expected = |i: usize| before[i] + step.iter().zip(&k[i * n..]).map(|(d, k)| k * d).sum::<f64>();
+        max_abs((0..n).map(|i| after[i] - expected(i))) / max_abs(after.iter().copied())
+    }
+
+    fn values(&self) -> Vec<f64> {
+        let x = self.x1.iter().chain(self.x2).flat_map(|v| v.iter().copied());
+        x.chain(self.lambda.iter().flat_map(|v| v.iter().copied())).collect()
+    }
+
     fn residual(&mut self, z: &[f64]) -> Vec<f64> {
         let [_, a, b, _] = self.ends();
         let points = |z: &[f64]| z.chunks_exact(3).map(Vec3::from_column_slice).collect::<Vec<_>>();
@@ -84,10 +99,7 @@ impl<const N: usize> Point<'_, N> {
 
     /// See [`worst_difference`].
     pub fn difference_error(&mut self, floor: f64) -> f64 {
-        let (k, ends) = (self.tangent(), self.ends());
-        let x: Vec<f64> = (self.x1.iter().chain(self.x2).flat_map(|v| v.iter().copied()))
-            .chain(self.lambda.iter().flat_map(|v| v.iter().copied()))
-            .collect();
+        let (k, ends, x) = (self.tangent(), self.ends(), self.values());
         worst_difference(&k, ends, &x, floor, |y| self.residual(y))
     }
 }

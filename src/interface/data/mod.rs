@@ -14,6 +14,7 @@ pub mod frame;
 pub mod history;
 pub mod host_facets;
 pub mod lines;
+pub mod lists;
 pub mod meaning;
 pub mod multiplier;
 pub mod node_data;

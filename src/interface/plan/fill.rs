@@ -10,7 +10,7 @@ use super::table::{Hand, Target};
 use crate::dual::Columns;
 use crate::geometry::Vec3;
 use crate::interface::tangent::emission::{
-    Blocks, Dependence, Directions, MortarBlock, NodeBlock, Place, Span, Weights,
+    Blocks, Directions, MortarBlock, NodeBlock, Place, RowBlocks, Span, Weights,
 };
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 use crate::simd::{self, add_rows};
@@ -308,6 +308,16 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
         }
     }
 
+    /// Notes the first of these blocks that the plan lacks, if it lacks any; others have no equations.
+    #[cold]
+    fn miss(&mut self, row: Place, of: &RowBlocks) {
+        let node = self.layout.nodes.number(row);
+        if let Some(&column) = of.columns.iter().find(|column| self.found(node, **column) == LACKS) {
+            let place = column.checked_sub(of.nodes).map_or(Place::Displacement(column), Place::Multiplier);
+            self.note(true, row, place);
+        }
+    }
+
     /// Notes that the plan lacks one of these blocks, if it does.
     fn note(&mut self, lacks: bool, row: Place, column: Place) {
         if lacks && self.state.lacks.is_none() {
@@ -428,33 +438,29 @@ impl<const N: usize> Blocks<N> for Fill<'_, '_, N> {
         });
     }
 
-    fn products(&mut self, row: Place, of: &Dependence, by_s: &[f64; 3], by_multiplier: &[f64; 3]) {
-        let keys = of.columns.iter().enumerate().map(|(k, &(key, place))| ((k, place), key));
-        if matches!(row, Place::Displacement(_)) {
-            self.add_row(row, keys, |to, len, (k, is_multiplier), _| {
-                let (slope, [x, y, z]) = (of.slopes[k], *by_multiplier);
-                if is_multiplier {
-                    return add_rows(to, 0, len, [[x], [y], [z]]);
-                }
-                let mut block = [slope; 3];
-                for i in 0..3 {
-                    for j in 0..3 {
-                        block[i][j] *= by_s[i];
-                    }
-                }
-                add_rows(to, 0, len, block);
-            });
-        } else {
-            self.add_row(row, keys, |to, len, (k, is_multiplier), _| {
-                let (slope, by_s) = (of.slopes[k], by_s[0]);
-                if is_multiplier {
-                    return add_rows(to, 0, len, [[by_multiplier[0]]]);
-                }
-                add_rows(to, 0, len, [[by_s * slope[0], by_s * slope[1], by_s * slope[2]]]);
-            });
+    fn sums(&mut self, row: Place, of: &RowBlocks) {
+        let node = self.layout.nodes.number(row);
+        if !self.layout.has_rows(node) {
+            return;
         }
-        for (nothing, (s, multiplier)) in self.state.nothing.iter_mut().zip(by_s.iter().zip(by_multiplier)) {
-            *nothing += 0.0 * (s * of.size + multiplier);
+        let Some(Target { rows, piece, start }) = self.hand.claim(node) else { return self.note(true, row, row) };
+        let (to, nothing, mut found) = (&mut *self.hand.pieces[piece], &mut self.state.nothing, 0);
+        self.layout.each_offset(node, rows.is_diagonal, self.layout.columns.get(node), |column, offset, width| {
+            let Some(block) = of.blocks.get(of.places[column] as usize) else { return };
+            let (at, len, of_row) = (start + offset as usize, rows.len, &block[of.first]);
+            found += 1;
+            match (rows.scalars, width) {
+                (1, 1) => add_rows(to, at, len, [[of_row[0]]]),
+                (1, _) => add_rows(to, at, len, [[of_row[0], of_row[1], of_row[2]]]),
+                (_, 1) => add_rows(to, at, len, [[block[0][0]], [block[1][0]], [block[2][0]]]),
+                _ => add_rows(to, at, len, [0, 1, 2].map(|i| [block[i][0], block[i][1], block[i][2]])),
+            }
+            for row in &block[of.first..of.first + usize::from(rows.scalars)] {
+                nothing.iter_mut().zip(row).for_each(|(nothing, value)| *nothing += 0.0 * value);
+            }
+        });
+        if found < of.columns.len() {
+            self.miss(row, of);
         }
     }
 

@@ -6,8 +6,9 @@
 //! component) are laid out in the same way beside the entries, as if all equations existed, and go from there to the entries.
 
 use super::numbering::{NO_RANK, Nodes, Numbering, SCALARS, Sides};
-use super::pattern::{Key, Lists};
+use super::pattern::Key;
 use crate::error::Result;
+use crate::interface::data::lists::Lists;
 use crate::interface::data::options::Form;
 use crate::interface::data::surface::NO_EQUATION;
 use crate::memory::{self, Store};

@@ -2,12 +2,13 @@
 
 use super::fill::Fill;
 use super::numbering::{Nodes, Numbering, Sides};
-use super::pattern::{FacetPairs, Finder, Lists, System};
+use super::pattern::{FacetPairs, Finder, System};
 use super::phases;
 use super::places::{Layout, Places, Widths};
 use super::scatter::{SKIP, Scatter};
 use super::table::{Hand, Parted, Table, TableRoom};
 use crate::error::{Error, Kind, Result};
+use crate::interface::data::lists::Lists;
 use crate::interface::tangent::union::Pairs;
 use crate::memory::{self, Store, Stored};
 use std::ops::Range;

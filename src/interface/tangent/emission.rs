@@ -50,14 +50,22 @@ pub struct MortarBlock<'a> {
 /// `[j][i]`: component i of a row with respect to component j of a column's node, and a fourth number that nobody takes.
 pub type NodeBlock = [[f64; 4]; 3];
 
-/// What rows of several nodes have in common that depend on one number s, of one multiplier a node.
-pub struct Dependence<'a> {
-    /// What s depends on, in the order of [`Blocks::order`], each with what that says of it.
-    pub columns: &'a [(u32, Place)],
-    /// Of each displacement ds / dx; of a multiplier nothing is read.
-    pub slopes: &'a [[f64; 3]],
-    /// The sum of their sizes: not finite where one of them is not.
-    pub size: f64,
+/// `[i][j]`: component i of a row with respect to component j of a column's node, each with a fourth number that nobody takes; the
+/// fourth row is that of a multiplier beside three of displacements.
+pub type RowBlock = [[f64; 4]; 4];
+
+/// Blocks of the rows of one node, each column once and in any order. Numbers are those of displacements over both surfaces, then those of
+/// multipliers.
+pub struct RowBlocks<'a> {
+    /// The numbers of the columns.
+    pub columns: &'a [usize],
+    pub blocks: &'a [RowBlock],
+    /// Per number its place among them; larger than any where it is none of them.
+    pub places: &'a [u32],
+    /// Nodes of both surfaces.
+    pub nodes: usize,
+    /// Which row of each block is that of the node's first component.
+    pub first: usize,
 }
 
 /// Weights of the multipliers of a facet, and their normals.
@@ -99,18 +107,17 @@ pub trait Blocks<const N: usize> {
         }
     }
 
-    /// The row of a node with respect to what s depends on: `by_s` (d row / d s) times each slope, and `by_multiplier` in the column of
-    /// a multiplier.
-    fn products(&mut self, row: Place, of: &Dependence, by_s: &[f64; 3], by_multiplier: &[f64; 3]) {
+    /// Blocks of one node's rows; with them come all that these columns have.
+    fn sums(&mut self, row: Place, of: &RowBlocks) {
         let components = if matches!(row, Place::Displacement(_)) { 3 } else { N };
-        for ((_, column), slope) in of.columns.iter().zip(of.slopes) {
+        for (&number, block) in of.columns.iter().zip(of.blocks) {
+            let (column, width) = match number.checked_sub(of.nodes) {
+                Some(a) => (Place::Multiplier(a), N),
+                None => (Place::Displacement(number), 3),
+            };
             let mut values = [0.0; 9];
-            if matches!(column, Place::Multiplier(_)) {
-                self.node(row, *column, &by_multiplier[..components]);
-                continue;
-            }
-            (0..3 * components).for_each(|ij| values[ij] = by_s[ij % components] * slope[ij / components]);
-            self.node(row, *column, &values[..3 * components]);
+            (0..width * components).for_each(|ij| values[ij] = block[of.first + ij % components][ij / components]);
+            self.node(row, column, &values[..width * components]);
         }
     }
 

@@ -18,6 +18,8 @@ pub mod point_friction;
 pub mod point_motion;
 pub mod point_numbers;
 pub mod points;
+pub mod row_sums;
+pub mod slopes;
 pub mod star;
 pub mod turning;
 pub mod union;

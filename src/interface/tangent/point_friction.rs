@@ -163,7 +163,7 @@ pub fn blocks<const N: usize>(
     numbers: Option<&PointNumbers>,
     emitter: &mut Emitter<N>,
 ) -> Result<()> {
-    let around = Around::of(given, pairs)?;
+    let around = Around::of(given, pairs, None)?;
     let points = numbers.map(|numbers| numbers.points);
     let mut of_node = OfNode { star: Star::of(given)?, ..OfNode::default() };
     for a in (0..given.nodes()).filter(|&a| given.setup.nonmortar.has_row(a)) {
@@ -175,7 +175,7 @@ pub fn blocks<const N: usize>(
         }
         of_node.begin(given, a, &around)?;
         if let Some(points) = points {
-            around.around(a).iter().for_each(|&k| of_node.add(given, a, around.facets[k], points));
+            around.around(a).iter().for_each(|&k| of_node.add(given, a, around.facets[k as usize], points));
         }
         of_node.emit(given, a, points, emitter)?;
     }

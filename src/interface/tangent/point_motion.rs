@@ -136,7 +136,7 @@ impl Table {
         &mut self,
         given: Given<N>,
         (points, active): (&Points, &Active),
-        (at, mortar): (usize, &[usize]),
+        (at, mortar): (usize, &[u32]),
     ) -> Result<Option<Whole>> {
         let ((one, two), facet, n) = (given.setup.surfaces(), &points.facets[at], self.columns.len());
         self.overlaps.of(given, active, facet.places())?;
@@ -158,7 +158,7 @@ impl Table {
                 ClosedPart::new(frame, segment, &sigma).motion(&mut forces);
             }
             let nodes = two.facets[points.pairs[place].two].as_slice();
-            let column_of = |c: usize| mortar.iter().position(|known| *known == c).map(|c| facet.n + c);
+            let column_of = |c: usize| mortar.iter().position(|known| *known as usize == c).map(|c| facet.n + c);
             for slot in (0..facet.n).chain(MORTAR..MORTAR + nodes.len()) {
                 let column = if slot < MORTAR { Some(slot) } else { column_of(nodes[slot - MORTAR]) };
                 let Some(column) = column else { continue };
@@ -186,7 +186,7 @@ impl Table {
         &mut self,
         given: Given<N>,
         (points, active): (&Points, &Active),
-        (at, mortar): (usize, &[usize]),
+        (at, mortar): (usize, &[u32]),
     ) -> Result<Option<Whole>> {
         let ((one, two), facet) = (given.setup.surfaces(), &points.facets[at]);
         let integrated = facet.places().map(|place| active.integrated_parent(place));
@@ -226,7 +226,7 @@ impl Table {
         (points, at): (&Points, usize),
         (own, other, measure): (&LineFacet, &LineFacet, Measure),
         (weights, Whole { heights: h, e, .. }, d): (&ParentWeights, &Whole, [f64; MAX_LINE_NODES]),
-        (nodes, mortar): (&[usize], &[usize]),
+        (nodes, mortar): (&[usize], &[u32]),
     ) {
         let (facet, sigma, n) = (&points.facets[at], points.acting(at), self.columns.len());
         let lambda = facet.of(&points.multipliers);
@@ -235,7 +235,7 @@ impl Table {
             Closed::Part(_) => LineDerivatives::closed_part(own, other, measure, [sigma[0], sigma[1]]),
             _ => all,
         };
-        let column_of = |c: usize| mortar.iter().position(|known| *known == c).map(|c| facet.n + c);
+        let column_of = |c: usize| mortar.iter().position(|known| *known as usize == c).map(|c| facet.n + c);
         for (slot, j) in (0..4).flat_map(|slot| (0..2).map(move |j| (slot, j))) {
             let column = if slot < 2 { Some(slot) } else { column_of(nodes[slot - 2]) };
             let Some(column) = column else { continue };
@@ -285,13 +285,13 @@ impl Table {
         given: Given<N>,
         PointNumbers { points, .. }: &PointNumbers,
         (facet, whole, at): (&PointFacet, &Whole, usize),
-        mortar: &[usize],
+        mortar: &[u32],
         emitter: &mut Emitter<N>,
     ) -> Result<()> {
         let (one, n, phi) = (&given.setup.nonmortar, self.columns.len(), whole.basis.coverage.fade);
         let place = |k: usize| match k < facet.n {
             true => Place::Displacement(facet.nodes[k]),
-            false => Place::Displacement(one.len() + mortar[k - facet.n]),
+            false => Place::Displacement(one.len() + mortar[k - facet.n] as usize),
         };
         let Table { columns, other, other_by, places, order, blocks, .. } = self;
         places.clear();
@@ -303,7 +303,7 @@ impl Table {
         for pair in facet.places() {
             let Some(closed) = points.closed(at, pair) else { break };
             for (l, c) in given.setup.mortar.host_nodes(points.pairs[pair].two).iter().enumerate() {
-                if let Some(row) = mortar.iter().position(|known| known == c) {
+                if let Some(row) = mortar.iter().position(|known| *known as usize == *c) {
                     other[row] -= (0..MAX_CORNERS).map(|a| closed.ac[a][l] * sigma[a]).sum::<f64>();
                 }
             }

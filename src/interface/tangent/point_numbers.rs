@@ -1,8 +1,9 @@
 //! Where points decide: what the numbers of a tangent are made of.
 
+use super::star::Around;
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
-use crate::interface::data::points::Points;
+use crate::interface::data::points::{Closed, Points};
 use crate::interface::stages::sums::NodeSums;
 
 /// What the numbers are made of.
@@ -13,4 +14,12 @@ pub struct PointNumbers<'a> {
     pub normals: &'a [Vec3],
     /// The pairs whose weights are differentiated; `None`: no weights are.
     pub active: Option<&'a Active>,
+}
+
+impl PointNumbers<'_> {
+    /// Whether sigma_A acts anywhere: on a facet that is not open.
+    pub fn acts(&self, a: usize, around: &Around) -> bool {
+        let is_closed = |at: usize| self.points.states[at] != Closed::Nothing;
+        self.points.is_covered[a] && around.around(a).iter().any(|&k| around.at(k as usize).is_some_and(is_closed))
+    }
 }

@@ -1,152 +1,175 @@
 //! The tangent where points decide (docs/formulation.md 16.4). Tractions at points depend on sigma_A of
-//! a facet's nodes, and sigma_A = lambda_A + rhat_A nu_A . g_A / D_A on all nodes of the facets around A. So blocks are sums over
-//! nodes A of products: of what sigma_A acts on, and of what it depends on. Where sigma = 0 the tractions vanish: the border's motion
-//! adds nothing. Around nodes whose facets are all open nothing depends on sigma, and the products are left out.
+//! a facet's nodes, and sigma_A = lambda_A + rhat_A nu_A . g_A / D_A on the nodes that `slopes.rs` has. So the rows of a node are sums over
+//! the nodes A of its facets, of d R / d sigma_A times what sigma_A depends on (`row_sums.rs`). Where sigma = 0 the tractions vanish: the
+//! border's motion adds nothing. What nodes whose facets are all open act on is left out.
 
-use super::emission::{Dependence, Emitter, Place};
-use super::point_motion::{Motions, of_facets};
+use super::emission::{Emitter, Place, RowBlock};
+use super::point_motion::of_facets;
 pub use super::point_numbers::PointNumbers;
-use super::star::{Around, Star};
+use super::row_sums::{Acting, RowSums};
+use super::slopes::Slopes;
+use super::star::Around;
 use super::union::Pairs;
 use crate::error::Result;
-use crate::geometry::Vec3;
-use crate::interface::data::points::OfNodes;
+use crate::interface::data::points::{Closed, OfNodes};
 use crate::interface::pairing::given::Given;
-use crate::memory::{self, Store};
+use crate::memory::Store;
+use crate::shape::MAX_CORNERS;
 
-/// A node that sigma_A acts on and depends on.
-#[derive(Clone, Copy, Debug, Default)]
-struct Neighbour {
-    /// d force / d sigma_A.
-    force: Vec3,
-    /// d sigma_A / dx.
-    slope: Vec3,
+/// d R / d sigma_A of one A: three components of a force, and the row of a multiplier beside them.
+type Act = [f64; 4];
+
+/// Rows in the making. What they are made of has no numbers where the pattern is asked for alone.
+struct Rows<'a, const N: usize> {
+    given: Given<'a, N>,
+    around: &'a Around,
+    numbers: Option<&'a PointNumbers<'a>>,
+    slopes: &'a Slopes,
+    sums: RowSums,
+    /// Of the row at hand: its A, what acts, and what the multiplier's row has of lambda_A at fixed sigma.
+    of: Vec<usize>,
+    acts: Vec<Act>,
+    left: Vec<f64>,
+    acting: Vec<Acting>,
 }
 
-/// A multiplier whose row sigma_A or lambda_A is in.
-#[derive(Clone, Copy, Debug, Default)]
-struct Row {
-    /// d (rhat c) / d sigma_A and, at fixed sigma, d lambda_A.
-    closed: f64,
-    left: f64,
-}
-
-/// What depends on sigma_A of one node, and what it depends on.
-#[derive(Debug, Default)]
-struct OfNode {
-    star: Star,
-    /// Beside the star's.
-    neighbours: Vec<Neighbour>,
-    rows: Vec<Row>,
-    /// What sigma_A depends on in its order: which neighbour, or A's multiplier; its column; its slope.
-    order: Vec<(u32, usize)>,
-    columns: Vec<(u32, Place)>,
-    slopes: Vec<[f64; 3]>,
-}
-
-impl OfNode {
-    fn begin<const N: usize>(&mut self, given: Given<N>, a: usize, around: &Around) -> Result<()> {
-        self.star.begin(given, a, around)?;
-        memory::refill(&mut self.neighbours, Neighbour::default(), self.star.nodes.len())?;
-        memory::refill(&mut self.rows, Row::default(), self.star.rows.len())
+impl<const N: usize> Rows<'_, N> {
+    fn begin(&mut self) {
+        self.sums.begin();
+        self.of.clear();
+        self.acts.clear();
+        self.left.clear();
+        self.acting.clear();
     }
 
-    /// Adds what the k-th facet has of A. `motions`: what sigma_A depends on with weights that change.
-    fn add<const N: usize>(
-        &mut self,
-        given: Given<N>,
-        a: usize,
-        (k, around): (usize, &Around),
-        (numbers, motions): (&PointNumbers, Option<&Motions>),
-    ) {
-        let ((one, two), f) = (given.setup.surfaces(), around.facets[k]);
-        let PointNumbers { points, sums, normals, .. } = numbers;
-        let Ok(at) = points.facets.binary_search_by_key(&f, |facet| facet.one) else { return };
-        let facet = &points.facets[at];
-        let Some(l) = facet.nodes().iter().position(|&b| b == a) else { return };
-        let is_covered = points.is_covered[a];
-        let slope = match motions {
-            None if is_covered => normals[a] * (points.rhat[a] / sums[a].coverage),
-            _ => Vec3::zeros(),
-        };
-        for (k, &b) in facet.nodes().iter().enumerate().filter(|(_, b)| points.is_covered[**b]) {
-            if let Some(row) = self.star.row(b) {
-                self.rows[row].left += facet.mass[k][l] + points.factors[b] * facet.stabilisation[k][l];
-            }
+    /// The place of A among those of the row.
+    #[inline]
+    fn place(&mut self, a: usize) -> Result<usize> {
+        let place = self.sums.multiplier(a)?;
+        if place == self.of.len() {
+            self.of.store(a)?;
+            self.acts.store([0.0; 4])?;
+            self.left.store(0.0)?;
         }
-        if !is_covered {
-            return;
-        }
-        if let Some(motions) = motions {
-            let nodes = || facet.nodes().iter().copied().chain(around.mortar(k).iter().map(|c| one.len() + c));
-            for (node, slope) in nodes().zip(motions.slopes(k, l, nodes().count())) {
-                self.neighbours[self.star.place(node)].slope += slope;
-            }
-        }
-        let mut room = OfNodes::default();
+        Ok(place)
+    }
+
+    /// The columns of all A of a facet.
+    fn reach(&mut self, k: usize) -> Result<()> {
+        let one = &self.given.setup.nonmortar;
+        let nodes = one.host_nodes(self.around.facets[k]).iter().filter(|b| one.has_row(**b));
+        nodes.copied().try_for_each(|a| self.place(a).map(|_| ()))
+    }
+
+    /// Adds what a non-mortar node has of the k-th facet.
+    fn own(&mut self, i: usize, k: usize, PointNumbers { points, .. }: &PointNumbers) -> Result<()> {
+        let Some(at) = self.around.at(k) else { return Ok(()) };
+        let (facet, is_covered) = (&points.facets[at], points.is_covered[i]);
+        let Some(row) = facet.nodes().iter().position(|&b| b == i) else { return Ok(()) };
+        let (is_open, mut room) = (points.states[at] == Closed::Nothing, OfNodes::default());
         let mass = points.states[at].mass(facet, &points.closed, &mut room);
-        for (k, &b) in facet.nodes().iter().enumerate() {
-            self.neighbours[self.star.place(b)].force += facet.normal * mass[l][k];
-            if let Some(row) = self.star.row(b).filter(|_| points.is_covered[b]) {
-                self.rows[row].closed += mass[k][l];
-            }
-        }
-        for place in facet.places() {
-            let (pair, closed) = (&points.pairs[place], points.closed(at, place));
-            for (k, &b) in facet.nodes().iter().enumerate() {
-                self.neighbours[self.star.place(b)].slope += slope * pair.dual.ab[l][k];
-            }
-            if given.setup.effects.moves() {
-                for (k, &c) in two.host_nodes(pair.two).iter().enumerate() {
-                    let neighbour = &mut self.neighbours[self.star.place(one.len() + c)];
-                    neighbour.force -= facet.normal * closed.map_or(0.0, |closed| closed.ac[l][k]);
-                    neighbour.slope -= slope * pair.dual.ac[l][k];
-                }
-            }
-        }
-    }
-
-    /// Puts what sigma_A depends on in its order.
-    fn sort<const N: usize>(&mut self, a: usize, emitter: &Emitter<N>) -> Result<()> {
-        let multiplier = self.neighbours.len();
-        let place = |k: usize| self.star.nodes.get(k).map_or(Place::Multiplier(a), |node| Place::Displacement(*node));
-        self.order.clear();
-        self.order.store_all((0..=multiplier).map(|k| (emitter.taker.order(place(k)), k)))?;
-        self.order.sort_unstable();
-        self.columns.clear();
-        self.columns.store_all(self.order.iter().map(|&(key, k)| (key, place(k))))?;
-        let slope = |k: usize| self.neighbours.get(k).map_or(Vec3::zeros(), |n| n.slope);
-        self.slopes.clear();
-        self.slopes.store_all(self.order.iter().map(|&(_, k)| slope(k).into()))
-    }
-
-    /// `is_covered`: with numbers, whether A is.
-    fn emit<const N: usize>(
-        &mut self,
-        given: Given<N>,
-        (a, is_covered): (usize, Option<bool>),
-        emitter: &mut Emitter<N>,
-    ) -> Result<()> {
-        let areas = &given.history().areas;
-        self.sort(a, emitter)?;
-        let size = self.slopes.iter().flatten().map(|slope| slope.abs()).sum();
-        let of = Dependence { columns: &self.columns, slopes: &self.slopes, size };
-        for (&node, row) in self.star.nodes.iter().zip(&self.neighbours) {
-            if is_covered.is_some() && row.force == Vec3::zeros() {
+        for (l, &a) in facet.nodes().iter().enumerate() {
+            if !self.given.setup.nonmortar.has_row(a) {
                 continue;
             }
-            let force = row.force.into();
-            emitter.taker.products(Place::Displacement(node), &of, &force, &force);
-        }
-        for (&b, row) in self.star.rows.iter().zip(&self.rows) {
-            let place = Place::Multiplier(b);
-            let scale = given.row_scale(b) / (given.augmentation(b) * areas[b]);
-            let own = scale * if b == a && is_covered == Some(false) { -areas[a] } else { row.closed - row.left };
-            if is_covered.is_some() && row.closed == 0.0 {
-                emitter.taker.node(place, Place::Multiplier(a), &[own]);
-            } else {
-                emitter.taker.products(place, &of, &[scale * row.closed, 0.0, 0.0], &[own, 0.0, 0.0]);
+            let place = self.place(a)?;
+            if is_covered {
+                self.left[place] += facet.mass[row][l] + points.factors[i] * facet.stabilisation[row][l];
             }
+            if points.is_covered[a] && !is_open {
+                let (act, force) = (&mut self.acts[place], facet.normal * mass[l][row]);
+                (0..3).for_each(|n| act[n] += force[n]);
+                act[3] += if is_covered { mass[row][l] } else { 0.0 };
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds what mortar node c has of the k-th facet.
+    fn mortar(&mut self, c: usize, k: usize, PointNumbers { points, .. }: &PointNumbers) -> Result<()> {
+        let (one, two) = self.given.setup.surfaces();
+        let Some(at) = self.around.at(k) else { return Ok(()) };
+        let facet = &points.facets[at];
+        let (mut weights, mut is_there) = ([0.0; MAX_CORNERS], false);
+        for pair in facet.places() {
+            let Some(closed) = points.closed(at, pair) else { return Ok(()) };
+            if let Some(column) = two.host_nodes(points.pairs[pair].two).iter().position(|&d| d == c) {
+                (0..MAX_CORNERS).for_each(|l| weights[l] += closed.ac[l][column]);
+                is_there = true;
+            }
+        }
+        for (&a, n) in facet.nodes().iter().zip(weights).filter(|_| is_there) {
+            if points.is_covered[a] && one.has_row(a) {
+                let (place, force) = (self.place(a)?, facet.normal * n);
+                (0..3).for_each(|i| self.acts[place][i] -= force[i]);
+            }
+        }
+        Ok(())
+    }
+
+    /// Sums the row up, whose multiplier's row has these factors of what acts and of what is left; gives whether any force acts.
+    fn sum_up<const R: usize>(&mut self, scale: f64) -> Result<bool> {
+        for (k, &a) in self.of.iter().enumerate() {
+            let (mut act, block) = (self.acts[k], self.sums.of_multiplier(a)?);
+            act[3] *= scale;
+            (0..3).for_each(|i| block[i][0] = act[i]);
+            block[3][0] = act[3] - scale * self.left[k];
+            if act != [0.0; 4] {
+                self.acting.store((a, act.map(|by| [by; 4])))?;
+            }
+        }
+        if self.numbers.is_none() {
+            self.sums.reach(self.of.iter().copied(), self.slopes)?;
+            return Ok(true);
+        }
+        self.sums.add::<R>(&self.acting, self.slopes)?;
+        Ok(!self.acting.is_empty())
+    }
+
+    /// The rows of a non-mortar node.
+    fn emit_own(&mut self, i: usize, emitter: &mut Emitter<N>) -> Result<()> {
+        let (given, facets, has_row) = (self.given, self.around.around(i), self.given.setup.nonmortar.has_row(i));
+        if facets.is_empty() {
+            let value = if self.numbers.is_some() { -given.row_scale(i) / given.augmentation(i) } else { 0.0 };
+            if has_row {
+                emitter.taker.node(Place::Multiplier(i), Place::Multiplier(i), &[value]);
+            }
+            return Ok(());
+        }
+        self.begin();
+        for k in facets.iter().map(|&k| k as usize) {
+            match self.numbers {
+                Some(numbers) => self.own(i, k, numbers)?,
+                None => self.reach(k)?,
+            }
+        }
+        let scale = given.row_scale(i) / (given.augmentation(i) * given.history().areas[i]);
+        let acts = self.sum_up::<4>(scale)?;
+        if has_row && self.numbers.is_some_and(|numbers| !numbers.points.is_covered[i]) {
+            let own: &mut RowBlock = self.sums.of_multiplier(i)?;
+            own[3][0] = -given.row_scale(i) / given.augmentation(i);
+        }
+        if acts {
+            emitter.taker.sums(Place::Displacement(i), &self.sums.blocks(0));
+        }
+        if has_row {
+            emitter.taker.sums(Place::Multiplier(i), &self.sums.blocks(3));
+        }
+        Ok(())
+    }
+
+    /// The rows of mortar node c.
+    fn emit_mortar(&mut self, c: usize, emitter: &mut Emitter<N>) -> Result<()> {
+        self.begin();
+        for k in self.around.below(c).iter().map(|&k| k as usize) {
+            match self.numbers {
+                Some(numbers) => self.mortar(c, k, numbers)?,
+                None => self.reach(k)?,
+            }
+        }
+        if self.sum_up::<3>(0.0)? {
+            let place = Place::Displacement(self.given.nodes() + c);
+            emitter.taker.sums(place, &self.sums.blocks(0));
         }
         Ok(())
     }
@@ -158,26 +181,16 @@ pub fn blocks<const N: usize>(
     numbers: Option<&PointNumbers>,
     emitter: &mut Emitter<N>,
 ) -> Result<()> {
-    let around = Around::of(given, pairs)?;
+    let around = Around::of(given, pairs, numbers.map(|numbers| numbers.points))?;
     let motions = match numbers.and_then(|numbers| Some((numbers, numbers.active?))) {
         Some(numbers) => Some(of_facets(given, numbers, &around, emitter)?),
         None => None,
     };
-    let mut of_node = OfNode { star: Star::of(given)?, ..OfNode::default() };
-    for a in (0..given.nodes()).filter(|&a| given.setup.nonmortar.has_row(a)) {
-        if around.around(a).is_empty() {
-            let scale = given.row_scale(a) / given.augmentation(a);
-            let value = if numbers.is_some() { -scale } else { 0.0 };
-            emitter.taker.node(Place::Multiplier(a), Place::Multiplier(a), &[value]);
-            continue;
-        }
-        of_node.begin(given, a, &around)?;
-        let is_covered = numbers.map(|numbers| numbers.points.is_covered[a]);
-        if let Some(numbers) = numbers {
-            let numbers = (numbers, motions.as_ref());
-            around.around(a).iter().for_each(|&k| of_node.add(given, a, (k, &around), numbers));
-        }
-        of_node.emit(given, (a, is_covered), emitter)?;
-    }
-    Ok(())
+    let slopes = Slopes::of(given, &around, numbers.map(|numbers| (numbers, motions.as_ref())))?;
+    let (of, acts, left, acting) = Default::default();
+    let (sums, slopes, around) = (RowSums::of(given)?, &slopes, &around);
+    let mut rows = Rows { given, around, numbers, slopes, sums, of, acts, left, acting };
+    (0..given.nodes()).try_for_each(|i| rows.emit_own(i, emitter))?;
+    let mortar = if given.setup.effects.moves() { given.setup.mortar.len() } else { 0 };
+    (0..mortar).try_for_each(|c| rows.emit_mortar(c, emitter))
 }

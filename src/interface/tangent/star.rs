@@ -3,6 +3,8 @@
 
 use super::union::{Pairs, Walk};
 use crate::error::Result;
+use crate::interface::data::lists::Lists;
+use crate::interface::data::points::Points;
 use crate::interface::pairing::given::Given;
 use crate::memory::{self, Store};
 
@@ -10,50 +12,60 @@ use crate::memory::{self, Store};
 #[derive(Debug, Default)]
 pub struct Around {
     pub facets: Vec<usize>,
-    first_node: Vec<usize>,
-    mortar: Vec<usize>,
-    /// Per node where its facets begin among `of_node`.
-    first: Vec<usize>,
-    of_node: Vec<usize>,
+    /// Where the points have each facet.
+    at: Vec<Option<u32>>,
+    mortar: Lists,
+    /// By non-mortar nodes, and by mortar nodes.
+    of_node: Lists,
+    below: Lists,
 }
 
 impl Around {
-    /// Those that have pairs.
-    pub fn of<const N: usize>(given: Given<N>, pairs: Pairs) -> Result<Around> {
+    /// Those that have pairs; `points`: whose facets they are.
+    pub fn of<const N: usize>(given: Given<N>, pairs: Pairs, points: Option<&Points>) -> Result<Around> {
         let (mut all, mut walk, mut of_facet) = (Around::default(), Walk::through(pairs, 0..usize::MAX), Vec::new());
         let ((one, two), moves) = (given.setup.surfaces(), given.setup.effects.moves());
-        all.first_node.store(0)?;
-        memory::refill(&mut all.first, 0, one.len() + 2)?;
+        let mut ahead = points.map_or(&[][..], |points| &points.facets).iter().enumerate().peekable();
+        all.mortar.first.store(0)?;
         while let Some(f) = walk.next(&mut of_facet)? {
+            while ahead.next_if(|(_, facet)| facet.one < f).is_some() {}
             all.facets.store(f)?;
-            let first = all.mortar.len();
+            all.at.store(ahead.peek().filter(|(_, facet)| facet.one == f).map(|(at, _)| *at as u32))?;
+            let first = all.mortar.all.len();
             for &c in of_facet.iter().filter(|_| moves).flat_map(|pair| two.host_nodes(pair.two)) {
-                if !all.mortar[first..].contains(&c) {
-                    all.mortar.store(c)?;
+                if !all.mortar.all[first..].contains(&(c as u32)) {
+                    all.mortar.all.store(c as u32)?;
                 }
             }
-            all.first_node.store(all.mortar.len())?;
-            one.host_nodes(f).iter().for_each(|&a| all.first[a + 2] += 1);
+            all.mortar.first.store(all.mortar.all.len())?;
         }
-        for a in 2..all.first.len() {
-            all.first[a] += all.first[a - 1];
-        }
-        memory::refill(&mut all.of_node, 0, all.first[one.len() + 1])?;
-        for (k, &f) in all.facets.iter().enumerate() {
-            for &a in one.host_nodes(f) {
-                all.of_node[all.first[a + 1]] = k;
-                all.first[a + 1] += 1;
-            }
-        }
+        let facets = &all.facets;
+        all.of_node = Lists::of(one.len(), |give| {
+            (0..).zip(facets).for_each(|(k, &f)| one.host_nodes(f).iter().for_each(|&a| give(a, k)));
+        })?;
+        all.below = Lists::of(two.len(), |give| {
+            (0..facets.len()).for_each(|k| all.mortar.get(k).iter().for_each(|&c| give(c as usize, k as u32)));
+        })?;
         Ok(all)
     }
 
-    pub fn around(&self, a: usize) -> &[usize] {
-        &self.of_node[self.first[a]..self.first[a + 1]]
+    pub fn around(&self, a: usize) -> &[u32] {
+        self.of_node.get(a)
     }
 
-    pub fn mortar(&self, k: usize) -> &[usize] {
-        &self.mortar[self.first_node[k]..self.first_node[k + 1]]
+    /// The facets that have mortar node c.
+    pub fn below(&self, c: usize) -> &[u32] {
+        self.below.get(c)
+    }
+
+    pub fn mortar(&self, k: usize) -> &[u32] {
+        self.mortar.get(k)
+    }
+
+    /// Where the points have the k-th facet.
+    #[inline]
+    pub fn at(&self, k: usize) -> Option<usize> {
+        self.at[k].map(|at| at as usize)
     }
 }
 
@@ -84,7 +96,7 @@ impl Star {
         let one = &given.setup.nonmortar;
         self.nodes.drain(..).for_each(|node| self.places[node] = NOWHERE);
         self.rows.drain(..).for_each(|node| self.row_places[node] = NOWHERE);
-        for &k in around.around(a) {
+        for k in around.around(a).iter().map(|&k| k as usize) {
             let own = one.host_nodes(around.facets[k]);
             for &b in own.iter().filter(|&&b| one.has_row(b)) {
                 if self.row_places[b] == NOWHERE {
@@ -92,7 +104,7 @@ impl Star {
                     self.rows.store(b)?;
                 }
             }
-            for node in own.iter().copied().chain(around.mortar(k).iter().map(|c| one.len() + c)) {
+            for node in own.iter().copied().chain(around.mortar(k).iter().map(|&c| one.len() + c as usize)) {
                 if self.places[node] == NOWHERE {
                     self.places[node] = self.nodes.len();
                     self.nodes.store(node)?;

@@ -1,0 +1,141 @@
+//! What sigma_A of each node depends on beside lambda_A (docs/formulation.md 16.4): rhat_A nu_A . Dg_A / D_A. With weights that are held dual
+//! ones leave no node of its own side but A: sum_B n^d_AB x_B = D_A x_A (10.1), for off the diagonal there is nothing but rounding. With
+//! weights that are differentiated there are all nodes of the facets around A.
+
+use super::point_motion::Motions;
+use super::point_numbers::PointNumbers;
+use super::star::Around;
+use crate::error::Result;
+use crate::geometry::Vec3;
+use crate::interface::pairing::given::Given;
+use crate::memory::{self, Store};
+
+/// The nodes of both surfaces that each sigma_A depends on, and d sigma_A / dx, each with a fourth number that is 0. Without
+/// numbers the nodes alone; with them those of the sigma_A that act alone.
+#[derive(Debug, Default)]
+pub struct Slopes {
+    first: Vec<usize>,
+    nodes: Vec<u32>,
+    slopes: Vec<[f64; 4]>,
+}
+
+/// The nodes of one sigma_A while they are found.
+struct Finder<'a> {
+    of: &'a mut Slopes,
+    places: Vec<u32>,
+    first: usize,
+}
+
+impl Finder<'_> {
+    /// The place of a node, which is put at the end if it was not there.
+    #[inline]
+    fn place(&mut self, node: usize) -> Result<usize> {
+        let place = self.places[node] as usize;
+        if place >= self.first && self.of.nodes.get(place) == Some(&(node as u32)) {
+            return Ok(place);
+        }
+        self.places[node] = self.of.nodes.len() as u32;
+        self.of.nodes.store(node as u32)?;
+        self.of.slopes.store([0.0; 4])?;
+        Ok(self.of.nodes.len() - 1)
+    }
+}
+
+fn lanes(v: Vec3) -> [f64; 4] {
+    [v.x, v.y, v.z, 0.0]
+}
+
+impl Slopes {
+    /// Of all nodes.
+    pub fn of<const N: usize>(
+        given: Given<N>,
+        around: &Around,
+        numbers: Option<(&PointNumbers, Option<&Motions>)>,
+    ) -> Result<Slopes> {
+        let (mut all, n1) = (Slopes::default(), given.nodes());
+        let places = memory::filled(0, n1 + given.setup.mortar.len())?;
+        let mut finder = Finder { of: &mut all, places, first: 0 };
+        for a in 0..n1 {
+            finder.first = finder.of.nodes.len();
+            finder.of.first.store(finder.first)?;
+            if given.setup.nonmortar.has_row(a) && !around.around(a).is_empty() {
+                match numbers {
+                    None => finder.reach(given, a, around)?,
+                    Some((numbers, _)) if !numbers.acts(a, around) => {}
+                    Some((numbers, None)) => finder.held(given, a, around, numbers)?,
+                    Some((_, Some(motions))) => finder.moving(given, a, around, motions)?,
+                }
+            }
+        }
+        all.first.store(all.nodes.len())?;
+        Ok(all)
+    }
+
+    /// The nodes that sigma_A depends on.
+    #[inline]
+    pub fn nodes(&self, a: usize) -> &[u32] {
+        &self.nodes[self.first[a]..self.first[a + 1]]
+    }
+
+    /// d sigma_A / dx of each.
+    #[inline]
+    pub fn slopes(&self, a: usize) -> &[[f64; 4]] {
+        &self.slopes[self.first[a]..self.first[a + 1]]
+    }
+}
+
+impl Finder<'_> {
+    /// The nodes alone.
+    fn reach<const N: usize>(&mut self, given: Given<N>, a: usize, around: &Around) -> Result<()> {
+        let (one, own) = (&given.setup.nonmortar, given.setup.options.differentiates_weights());
+        self.place(a)?;
+        for &k in around.around(a) {
+            for &b in one.host_nodes(around.facets[k as usize]).iter().filter(|_| own) {
+                self.place(b)?;
+            }
+            around.mortar(k as usize).iter().try_for_each(|&c| self.place(one.len() + c as usize).map(|_| ()))?;
+        }
+        Ok(())
+    }
+
+    /// With weights that are held.
+    fn held<const N: usize>(
+        &mut self,
+        given: Given<N>,
+        a: usize,
+        around: &Around,
+        PointNumbers { points, sums, normals, .. }: &PointNumbers,
+    ) -> Result<()> {
+        let (one, two) = given.setup.surfaces();
+        let along = normals[a] * points.rhat[a];
+        let own = self.place(a)?;
+        for facet in around.around(a).iter().filter_map(|&k| around.at(k as usize)).map(|at| &points.facets[at]) {
+            let Some(l) = facet.nodes().iter().position(|&b| b == a) else { continue };
+            for pair in points.pairs[facet.places()].iter().filter(|_| given.setup.effects.moves()) {
+                for (&c, n) in two.host_nodes(pair.two).iter().zip(&pair.dual.ac[l]) {
+                    let place = self.place(one.len() + c)?;
+                    self.of.slopes[place][0] -= n;
+                }
+            }
+        }
+        self.of.slopes[own] = lanes(along);
+        let other = along / sums[a].coverage;
+        self.of.slopes[own + 1..].iter_mut().for_each(|slope| *slope = lanes(other * slope[0]));
+        Ok(())
+    }
+
+    /// With weights that are differentiated.
+    fn moving<const N: usize>(&mut self, given: Given<N>, a: usize, around: &Around, motions: &Motions) -> Result<()> {
+        let one = &given.setup.nonmortar;
+        for k in around.around(a).iter().map(|&k| k as usize) {
+            let (own, mortar) = (one.host_nodes(around.facets[k]), around.mortar(k));
+            let Some(l) = own.iter().position(|&b| b == a) else { continue };
+            let nodes = own.iter().copied().chain(mortar.iter().map(|&c| one.len() + c as usize));
+            for (node, slope) in nodes.zip(motions.slopes(k, l, own.len() + mortar.len())) {
+                let place = self.place(node)?;
+                (0..3).for_each(|i| self.of.slopes[place][i] += slope[i]);
+            }
+        }
+        Ok(())
+    }
+}
