@@ -176,7 +176,7 @@ PetscErrorCode run(Model *model, int *exit_code)
 
   PetscFunctionBegin;
   *exit_code = 0;
-  timed_fade(&model->physics, steps->n_targets, steps->targets);
+  timed_fade(&model->physics, steps->n_targets, steps->targets, steps->automatic ? steps->initial : steps->end);
   PetscCall(times_add_kinks(&model->physics, &model->solve.steps));
   PetscCall(run_create(model, &run));
   PetscCall(summary_create(&model->output, &run.summary));

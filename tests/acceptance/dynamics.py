@@ -38,6 +38,8 @@ def dynamics(verdicts, driver):
     jump(verdicts, driver)
     bars(verdicts, driver)
     bounces(verdicts, driver)
+    layer(verdicts, driver)
+    caught(verdicts, driver)
     turning(verdicts, driver)
     incline(verdicts, driver)
     top(verdicts, driver)
@@ -45,6 +47,9 @@ def dynamics(verdicts, driver):
     rolling(verdicts, driver)
     tangents(verdicts, driver)
     rolled_back(verdicts, driver)
+    overlap_at_the_start(verdicts, driver)
+    spins_too_fast(verdicts, driver)
+    inertia_unasked(verdicts, driver)
     refused(verdicts, driver)
 
 
@@ -231,6 +236,46 @@ def bounces(verdicts, driver):
     verdicts.near("bouncing ball, weights found anew: given by contact", table["contact_gain"][-1] / np.diff(total(table)).clip(0).sum(), 1, GIVEN_BOUND, "growth of energy")
 
 
+def layer(verdicts, driver):
+    """Where points decide K stores energy: what it gives back is no gain, and what contact gives beyond it is told with its cause."""
+    cube = {"type": "box", "young": 1000, "poisson": 0.3, "density": 1, "small_strain": True}
+    scene = {"schema": 1, "bodies": ["top", "base"], "top": {**cube, "lower": [0.2, 0.2, 1.02], "upper": [0.7, 0.8, 1.4], "cells": [2, 2, 2], "velocity": [0, 0, -1]},
+             "base": {**cube, "lower": [0, 0, 0.4], "upper": [1, 1, 1], "cells": [3, 3, 2]}, "dynamics": {"rho_inf": 1},
+             "supports": ["ground"], "ground": {"surface": "base.zmin", "components": ["x", "y", "z"]}, "interfaces": ["c"],
+             "c": {"nonmortar": "base.zmax", "mortar": "top.zmin", "law": "none", "decision": "points", "basis": "dual", "weights": "reference"},
+             "steps": {"count": 24, "end": 0.12}, "output": {"vtu": "none", "csv": "none"}}
+    result = run(driver, "layer", scene)
+    table = energy(result)
+    store, given = table["contact_store"], table["contact_gain"]
+    verdicts.at_least("points: what is stored", store.max() / total(table)[0], 1e-3, "by K")
+    verdicts.below("points: energy beyond the first", total(table).max() / total(table)[0] - 1, ENERGY_BOUND, "never")
+    grown = np.diff(total(table) + store).clip(0).sum()
+    verdicts.near("points: given by contact", given[-1] / grown, 1, GIVEN_BOUND, "what bodies and store together gain")
+    verdicts.true("points: a warning", "With `decision: points` it may" in result.text and "found anew" not in result.text, "of the right cause")
+    still = energy(run(driver, "layer", {**scene, "c": {"nonmortar": "base.zmax", "mortar": "top.zmin", "law": "none"}}, label="layer_nodes"))
+    verdicts.below("nodes: what is stored", np.abs(still["contact_store"]).max(), 0, "nothing")
+
+
+def caught(verdicts, driver):
+    """Two blocks that an axial spring catches: with finite strain the midpoint rule is off in the energy by the second order in dt or more, with linear
+    material by nothing, so that it is not the spring."""
+    box = {"type": "box", "young": 100, "poisson": 0.3, "density": 1, "cells": [2, 2, 2]}
+    scene = {"schema": 1, "bodies": ["a", "b"], "a": {**box, "lower": [0, 0, 0], "upper": [1, 1, 1], "velocity": [-1, 0.5, 0]},
+             "b": {**box, "lower": [2, 0, 0], "upper": [3, 1, 1], "velocity": [1, -0.5, 0]}, "dynamics": {"rho_inf": 1},
+             "springs": ["s"], "s": {"surface": "a.xmax", "to": "b.xmin", "axial": True, "stiffness": 40}, "steps": {"count": 20, "end": 2}, "output": {"vtu": "none", "csv": "none"}}
+    off = {}
+    for kind, more in (("linear", {"small_strain": True}), ("neo_hooke", {"material": "neo_hooke"})):
+        for count in (20, 40, 80):
+            scene["a"], scene["b"] = ({**scene[name], **more} for name in "ab")
+            table = energy(run(driver, "caught", scene, "-steps_count", str(count), label=f"caught_{kind}_{count}"))
+            off[kind, count] = np.abs(table["numerical"]).max() / total(table)[0]
+        scene["a"].pop("small_strain", None), scene["b"].pop("small_strain", None)
+    verdicts.below("caught blocks, linear: energy from nowhere", max(off["linear", count] for count in (20, 40, 80)), EXACT_BOUND, "none, however far the spring turns")
+    for count in (20, 40):
+        order = math.log2(off["neo_hooke", count] / off["neo_hooke", 2 * count])
+        verdicts.at_least(f"caught blocks, neo-Hooke: order in dt from {count} steps on", order, 2 - ORDER_BOUND, f"off by {off['neo_hooke', count]:.2g} and {off['neo_hooke', 2 * count]:.2g}")
+
+
 SPHERE = {"ball": [0, 0, 0], "lower": [-0.5] * 3, "upper": [0.5] * 3}
 SLAB = {"type": "box", "young": 200, "poisson": 0.3, "density": 1, "small_strain": True, "lower": [-0.8, -0.5, -0.8], "upper": [0.9, 0.5, -0.51], "cells": [11, 6, 2]}
 
@@ -383,6 +428,45 @@ def rolled_back(verdicts, driver):
     verdicts.true("rollback: steps were cut back", cut.summary["cutbacks"] > 0 and again.summary["cutbacks"] == 0, f"{cut.summary['cutbacks']}")
     same = (cut.directory / "energy.csv").read_text() == (again.directory / "energy.csv").read_text()
     verdicts.true("rollback: equal bits", same, f"{len(cut.steps)} steps")
+
+
+def overlap_at_the_start(verdicts, driver):
+    """Bars at rest that overlap: persistent weights leave it, which is told; weights of now part it, and what that gives is measured by what the
+    bodies have afterwards, for before they have nothing."""
+    scene = two_bars(n=3, count=2)
+    del scene["left"]["velocity"], scene["right"]["velocity"]
+    for ranks in (1, 2):
+        for lower, told in ((0.99, True), (1, False), (1 - 1e-7, False)):
+            scene["right"].update(lower=[lower, 0, 0], upper=[lower + 1, 0.1, 0.1])
+            kept = run(driver, "overlap", scene, ranks=ranks, label=f"overlap_{ranks}_{lower}")
+            verdicts.true(f"overlap of {1 - lower:.2g} at the start, {ranks} ranks", ("c overlap at the start, by 0.01 at node" in kept.text) == told, "told" if told else "rounding")
+    scene["right"].update(lower=[0.99, 0, 0], upper=[1.99, 0.1, 0.1])
+    parted = run(driver, "overlap", scene, "-c_weights", "current", label="overlap_parted")
+    verdicts.true("an overlap parted from rest: a warning", "contact gives the bodies 1 of their energy" in parted.text, "all of it")
+    verdicts.true("an overlap parted from rest: no other", "overlap at the start" not in parted.text, "weights of now press")
+
+
+def spins_too_fast(verdicts, driver):
+    """A brick that spins about an axis of its own: a step of a radian makes 2 atan(1/2) of it, which is told; one of a third of a radian is not."""
+    scene = {"schema": 1, "bodies": ["brick"], "brick": {**BRICK, "spin": [0, 0, 1]}, "dynamics": {"rho_inf": 1}, "steps": {"count": 1, "end": 2}, "output": {"vtu": "none"}}
+    for count, told in ((2, True), (6, False)):
+        result = run(driver, "spins", scene, "-steps_count", str(count), label=f"spins_{count}")
+        turn = 2 * math.atan(1 / count)
+        verdicts.near(f"a brick that spins, {count} steps: its turn", np.arctan2(*np.array(result.steps[0]["rigid"]["brick"]["turned"])[[3, 0]]), turn, RIGID_BOUND, "2 atan(w dt / 2)")
+        words = f"turns {100 * (1 - turn * count / 2):.2g} % too slowly"
+        verdicts.true(f"a brick that spins, {count} steps: a warning", result.text.count("too slowly") == told and (words in result.text) == told, words if told else "none")
+
+
+def inertia_unasked(verdicts, driver):
+    """Mass and inertia are properties of a rigid body: they may stand where nothing asks for them, and are looked at there, too."""
+    brick = {**{key: value for key, value in BRICK.items() if key != "density"}, "mass": 1, "inertia": [1, 1, 1]}
+    still = {"supports": ["still"], "still": {"body": "brick", "components": ["x", "y", "z", "rx", "ry", "rz"]}}
+    for label, more in (("statics", {}), ("held in all", {"dynamics": {"rho_inf": 1}})):
+        scene = {"schema": 1, "bodies": ["brick"], "brick": brick, **still, **more, "steps": {"count": 1}, "output": {"vtu": "none"}}
+        run(driver, "unasked", scene, label=f"unasked_{label.replace(' ', '_')}")
+        scene["brick"] = {**brick, "inertia": [1, 1, 3]}
+        text = run(driver, "unasked", scene, label=f"unasked_{label.replace(' ', '_')}_bad", expect=1).text
+        verdicts.true(f"inertia where nothing asks for it, {label}", "brick.inertia: no body has it" in text, "taken, and one that no body has refused")
 
 
 BRICK = {"type": "rigid", "from": "box", "lower": [0, 0, 5], "upper": [1, 1, 6], "cells": [1, 1, 1], "reference": [0.5, 0.5, 5.5], "density": 1}

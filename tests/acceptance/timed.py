@@ -116,6 +116,12 @@ def automatic(verdicts, driver):
     scene["draw"]["until"] = 1.1
     times = [step["t"] for step in driver.run(write(scene, driver.output / "unasked.yaml")).steps]
     verdicts.true("equal steps: a time of change is met", len(times) == 4 and abs(times[1] - 1.1) < 1e-12, f"{times}")
+    # Where the scene does not say a reaction fades in one step, whether `stages` have more, or `automatic` steps have no other end.
+    for name, steps, after in (("stages", {"stages": [1, 2, 2, 4]}, 1.25), ("automatic steps", {"end": 2, "automatic": True, "initial": 0.1, "largest": 0.2}, 1.1)):
+        run = driver.run(write(bar(steps=steps), driver.output / "one_step.yaml"), label=f"one_step_{name.replace(' ', '_')}")
+        left = [step["t"] for step in run.steps if step["t"] > 1 and "fading" in step]
+        verdicts.true(f"{name}: it fades in one step", all(t < after - 1e-9 for t in left), f"left at {left}")
+        verdicts.below(f"{name}: the end at last", abs(ends(run)[2]) / PULL, EXACT_BOUND, "back")
 
 
 def clamped(verdicts, driver):

@@ -6,6 +6,8 @@ use stickslip::interface::{Contact, Cover, Finding, Friction, Options, Shortcuts
 
 /// Rounding of a covered area over a nodal area.
 const ROUNDING: f64 = 1e-12;
+/// What a tilt of a fiftieth changes of an area, and more: it is of second order.
+const TILTED: f64 = 1e-3;
 
 fn covers(report: &stickslip::interface::Report) -> Vec<Cover> {
     report.nodes.iter().map(|n| n.cover).collect()
@@ -62,6 +64,33 @@ fn penetration_is_the_deepest_nodes() {
     let report = i.report(&x1, &two.x).unwrap();
     assert!((report.penetration - 0.01).abs() < ROUNDING);
     assert_eq!(report.count(Cover::Full), 9);
+}
+
+/// With weights that keep overlaps, one that is there at the start presses nothing, and is told by its node and size; rounding is not, nor
+/// is it with other weights.
+#[test]
+fn an_overlap_that_counts_as_closed_is_told() {
+    let one = grid(2, 2, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
+    let two = grid(1, 1, [-1.0, -1.0], [2.0, 2.0], 0.0, true, Cells::Quads);
+    for (depth, weights, told) in [
+        (0.01, Weights::Persistent, true),
+        (1e-7, Weights::Persistent, false),
+        (-0.01, Weights::Persistent, false),
+        (0.01, Weights::Committed, false),
+    ] {
+        let mut one = Mesh { x: one.x.iter().map(|x| x - Vec3::z() * depth).collect(), facets: one.facets.clone() };
+        one.x[8].z -= depth;
+        let report = interface(&one, &two, Options { weights, ..options() }).report(&one.x, &two.x).unwrap();
+        assert_eq!(report.kept.is_some(), told, "{depth} {weights:?}");
+        let text = report.text().unwrap();
+        assert_eq!(text.contains("Node 8 overlaps by"), told, "{text}");
+        if let Some((_, found, of_size)) = report.kept {
+            assert!(
+                found > depth && found < 2.0 * depth && (of_size * 0.5 / found - 1.0).abs() < TILTED,
+                "{found} {of_size}"
+            );
+        }
+    }
 }
 
 /// A surface that closes over a node in two layers within a step, before the commit that would refuse it.

@@ -324,6 +324,8 @@ int32_t law_restore(const Interface *interface, const ContactPart *part);
 void           decision_read(Scene *scene, Interface *interface);
 PetscBool      decision_is_points(const Interface *interface);
 PetscErrorCode decision_settle(const Contact *contact, Interface *interface);
+/* store.c: on every rank; at the place of the last evaluation, converged */
+PetscErrorCode contact_store(const Contact *contact, PetscReal *store);
 /* offsets.c; `fetch` through an SF from homes to the nodes of the part */
 PetscErrorCode offsets_read(Scene *scene, const Physics *physics, Interface *interface);
 PetscErrorCode offsets_place(Scene *scene, Interface *interface);
@@ -429,6 +431,8 @@ void           equilibrium_accept(Contact *contact);
 /* slide.c */
 PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t length);
 PetscErrorCode slide_accept(Contact *contact);
+/* kept.c: what persistent weights leave of an overlap at the start; after contact_gather() */
+PetscErrorCode kept_tell(const Contact *contact, const Interface *interface);
 
 /* The library's status as a PETSc error, where a refusal is not something to recover from. */
 #define PetscCallStickslip(...)                                                                                        \

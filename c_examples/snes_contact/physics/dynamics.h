@@ -12,7 +12,9 @@
 typedef struct {
   PetscReal kinetic, strain;
   PetscReal external, supports, contact; /* work of loads, supports, contact */
-  PetscReal given;                       /* of that of contact the steps in which it gave energy, where nothing without mass moves */
+  PetscReal given;                       /* of that of contact the steps in which it gave energy that it had not stored, where nothing
+                                            without mass moves */
+  PetscReal store;                       /* what contact has stored: no part of that of the bodies */
   PetscReal damping;                     /* energy that is gone by it */
   PetscReal momentum[3], angular[3];     /* the latter about the origin */
 } Balance;
@@ -63,8 +65,8 @@ PetscErrorCode dynamics_looked(const Physics *physics, StepView *step);
 PetscReal      dynamics_rate(const Dynamics *dynamics, const StepView *step, PetscInt k);
 PetscReal      dynamics_velocity(const Dynamics *dynamics, const StepView *step, PetscInt k);
 void           dynamics_swap(Vec *a, Vec *b); /* no copy */
-/* dynamics_balance.c: at a converged state, before the step is accepted; `f_local` of the last evaluation */
-PetscErrorCode dynamics_measure(Physics *physics);
+/* dynamics_balance.c: at a converged state, before the step is accepted; `f_local` of the last evaluation; what contact has stored */
+PetscErrorCode dynamics_measure(Physics *physics, PetscReal store);
 PetscErrorCode dynamics_energies(Physics *physics, Vec u, Vec v, PetscBool end, Balance *balance); /* end: of rigid bodies, the motion of now */
 /* mass.c: f += factor M v, of the cells here; the matrix of the equations, and what solves with it */
 PetscErrorCode mass_create(Physics *physics);

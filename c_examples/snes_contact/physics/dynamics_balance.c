@@ -251,7 +251,7 @@ static PetscErrorCode massless_moves(const Physics *physics, PetscBool *moves)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode dynamics_measure(Physics *physics)
+PetscErrorCode dynamics_measure(Physics *physics, PetscReal store)
 {
   Dynamics *d = physics->dynamics;
   PetscReal work[4] = {0};
@@ -278,7 +278,8 @@ PetscErrorCode dynamics_measure(Physics *physics)
   d->now.supports += work[1];
   d->now.contact += work[2];
   PetscCall(massless_moves(physics, &moves));
-  if (!moves) d->now.given += PetscMax(work[2], 0);
+  d->now.store = store;
+  if (!moves) d->now.given += PetscMax(work[2] + store - d->last.store, 0);
   d->now.damping += work[3];
   PetscCall(dynamics_energies(physics, physics->u_local, d->v_next, PETSC_TRUE, &d->now));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -107,7 +107,7 @@ PetscErrorCode dynamics_accept(Physics *physics)
   PetscFunctionBegin;
   if (!d) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecCopy(physics->u_local, d->u));
-  rigids_accept_inertia(physics, d->dt);
+  PetscCall(rigids_accept_inertia(physics, d->dt));
   dynamics_swap(&d->v, &d->v_next);
   dynamics_swap(&d->force, &d->force_next);
   dynamics_swap(&d->prescribed, &d->prescribed_next);

@@ -60,7 +60,7 @@ typedef struct {
   PetscReal mass;
   /* with `dynamics`, where `inertial`: it is not held in all, and moves by its inertia: about the reference point along the axes of the first
    * configuration; at t_n the displacement, velocity and, along the axes that turn with the body, spin */
-  PetscBool inertial, has_inertia;
+  PetscBool inertial, has_inertia, lag_told; /* lag_told: that it turns too slowly */
   PetscReal inertia[9], place[3], velocity[3], spin[3];
   PetscInt  part;                     /* among the model's parts; -1: none of its cells is here */
   PetscInt  held, turned_by;          /* mask of prescribed unknowns; of rotations (from bit 3 on) that a support turns by an angle */
@@ -196,7 +196,8 @@ PetscErrorCode timed_rows(Physics *physics, PetscReal scale, Mat matrix);
 PetscErrorCode timed_forces(Physics *physics, PetscScalar *forces);     /* adds reactions that fade, at physics->t */
 PetscBool      timed_bend(const Physics *physics, PetscReal t);         /* is one let go or activated at t, or has faded? */
 PetscInt       timed_times(const Physics *physics, PetscReal times[]);  /* of such changes, but for fading, 2 a support at most */
-void           timed_fade(Physics *physics, PetscInt n, const PetscReal times[]); /* where the scene does not say: to the next of these */
+/* where the scene does not say: to the next of these, and not longer than that */
+void           timed_fade(Physics *physics, PetscInt n, const PetscReal times[], PetscReal longest);
 PetscErrorCode timed_values(Physics *physics);                          /* for supports_values() */
 void           timed_vectors(const Physics *physics, Vec *place, Vec *let_go); /* local: what restart files keep */
 /* Is an entry of a local vector prescribed now, as no unknown or by a support that holds? */
@@ -244,7 +245,7 @@ PetscReal      rigid_rounding(const Rigid *rigid, PetscReal dt); /* of its inert
 void           rigids_add_work(const Physics *physics, PetscReal dt, PetscReal damping, const PetscScalar *external, RigidWork *work);
 void           rigids_add_motion(const Physics *physics, PetscReal dt, PetscBool end, PetscReal *kinetic, PetscReal momentum[3],
                                  PetscReal angular[3]);
-void           rigids_accept_inertia(Physics *physics, PetscReal dt);
+PetscErrorCode rigids_accept_inertia(Physics *physics, PetscReal dt); /* and tells of one that turns too slowly */
 
 /* supports_file.c */
 PetscErrorCode supports_file_read(Scene *scene, const Mesh *mesh, Support *support);

@@ -82,6 +82,7 @@ static PetscErrorCode archive_rigid(Rigid *rigid, Archive *archive)
   PetscCall(archive_reals(archive, "rigid.place", 3, rigid->place));
   PetscCall(archive_reals(archive, "rigid.velocity", 3, rigid->velocity));
   PetscCall(archive_reals(archive, "rigid.spin", 3, rigid->spin));
+  PetscCall(archive_bools(archive, "rigid.told", 1, &rigid->lag_told));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -132,32 +132,6 @@ static PetscErrorCode measure(Scene *scene, const Mesh *mesh, const Body *body, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* `mass`, or `density`, which gives the inertia, too. Where the scene is turned into a frame this comes before it. */
-PetscErrorCode rigids_read_mass(Scene *scene, const Mesh *mesh, Rigid *rigid)
-{
-  const Body *body    = &mesh->bodies[rigid->body];
-  PetscReal   density = 0, point[3] = {0, 0, 0}, sums[SUMS] = {0};
-  PetscFunctionBegin;
-  scene_real(scene, body->name, "mass", &rigid->mass);
-  if (rigid->mass < 0) scene_fail(scene, body->name, "mass", "it cannot be negative.");
-  if (!scene_has(scene, body->name, "density")) PetscFunctionReturn(PETSC_SUCCESS);
-  scene_real(scene, body->name, "density", &density);
-  if (!(density > 0)) scene_fail(scene, body->name, "density", "it must be positive.");
-  if (scene_has(scene, body->name, "mass")) scene_fail(scene, body->name, "density", "there is a `mass` beside it: give one of them.");
-  if (body->analytic) scene_fail(scene, body->name, "density", "its surface is in closed form, and may have no end: give `mass` and `inertia`.");
-  (void)space_vector(scene, &mesh->space, body->name, "reference", point);
-  scene_root_begin(scene);
-  if (mesh->rank == 0) PetscCall(measure(scene, mesh, body, point, sums));
-  PetscCall(scene_root_end(scene));
-  PetscCallMPI(MPI_Bcast(sums, SUMS, MPIU_REAL, 0, PETSC_COMM_WORLD));
-  rigid->mass = density * sums[MASS];
-  for (int k = 0; k < 9; k++)
-    sums[SECOND + k] *= density;
-  inertia_of(sums + SECOND, rigid->inertia);
-  rigid->has_inertia = PETSC_TRUE;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Of a body that is free to turn, in space: is it the inertia of any body? Its moments are those of a positive second moment
  * S = I tr J / 2 - J: no minor around its diagonal is negative. Nor is it that of a rod without thickness, which may turn about its axis for
  * nothing. */
@@ -171,14 +145,13 @@ static PetscBool is_of_a_body(const PetscReal J[9])
                      ca >= -slack * half && all >= -slack * half * half && determinant > slack * half * half);
 }
 
-/* `inertia`, of a body that moves by its own inertia. */
+/* `inertia`, where it is given: a property of the body as its mass is, whether anything asks for it or not. */
 static void read_inertia(Scene *scene, const Mesh *mesh, Rigid *rigid)
 {
   static const int place[6][2] = {{0, 0}, {4, 4}, {8, 8}, {5, 7}, {2, 6}, {1, 3}};
   const char      *name = mesh->bodies[rigid->body].name;
   PetscReal       *values;
   PetscInt         n;
-  if (rigid->has_inertia && scene_has(scene, name, "inertia")) scene_fail(scene, name, "inertia", "`density` gives it already: leave one out.");
   scene_reals(scene, name, "inertia", &n, &values);
   if (n && n != (mesh->dimension == 3 ? 3 : 1) && !(mesh->dimension == 3 && n == 6))
     scene_fail(scene, name, "inertia", mesh->dimension == 3 ? "3 numbers are expected, xx, yy, zz, or 6, with yz, zx, xy."
@@ -190,11 +163,38 @@ static void read_inertia(Scene *scene, const Mesh *mesh, Rigid *rigid)
   if (n && mesh->dimension == 2) rigid->inertia[0] = rigid->inertia[4] = values[0] / 2;
   if (n) rigid->has_inertia = PETSC_TRUE;
   PetscCallAbort(PETSC_COMM_WORLD, PetscFree(values));
-  if (!rigid->has_inertia)
-    scene_fail(scene, name, "inertia", "this key is missing: it turns, and `dynamics` asks for its moments of inertia, or for `density` in place of "
-                                       "`mass`.");
-  if (!is_of_a_body(rigid->inertia))
+  if (n && !is_of_a_body(rigid->inertia))
     scene_fail(scene, name, "inertia", "no body has it: moments are positive, and none is more than the sum of the two others.");
+}
+
+/* `mass` and `inertia`, or `density`, which gives both. Where the scene is turned into a frame this comes before it. */
+PetscErrorCode rigids_read_mass(Scene *scene, const Mesh *mesh, Rigid *rigid)
+{
+  const Body *body    = &mesh->bodies[rigid->body];
+  PetscReal   density = 0, point[3] = {0, 0, 0}, sums[SUMS] = {0};
+  PetscFunctionBegin;
+  scene_real(scene, body->name, "mass", &rigid->mass);
+  if (rigid->mass < 0) scene_fail(scene, body->name, "mass", "it cannot be negative.");
+  if (!scene_has(scene, body->name, "density")) {
+    read_inertia(scene, mesh, rigid);
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  scene_real(scene, body->name, "density", &density);
+  if (!(density > 0)) scene_fail(scene, body->name, "density", "it must be positive.");
+  if (scene_has(scene, body->name, "mass")) scene_fail(scene, body->name, "density", "there is a `mass` beside it: give one of them.");
+  if (scene_has(scene, body->name, "inertia")) scene_fail(scene, body->name, "inertia", "`density` gives it already: leave one out.");
+  if (body->analytic) scene_fail(scene, body->name, "density", "its surface is in closed form, and may have no end: give `mass` and `inertia`.");
+  (void)space_vector(scene, &mesh->space, body->name, "reference", point);
+  scene_root_begin(scene);
+  if (mesh->rank == 0) PetscCall(measure(scene, mesh, body, point, sums));
+  PetscCall(scene_root_end(scene));
+  PetscCallMPI(MPI_Bcast(sums, SUMS, MPIU_REAL, 0, PETSC_COMM_WORLD));
+  rigid->mass = density * sums[MASS];
+  for (int k = 0; k < 9; k++)
+    sums[SECOND + k] *= density;
+  inertia_of(sums + SECOND, rigid->inertia);
+  rigid->has_inertia = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The axes of the scene are turned into those of a frame. */
@@ -221,7 +221,10 @@ void rigids_read_inertia(Scene *scene, const Mesh *mesh, const Support supports[
   if (rigid->held == all) return;
   if (!(rigid->mass > 0)) scene_fail(scene, name, "mass", "one above 0 is needed, or `density`: with `dynamics` it moves by its inertia.");
   if ((rigid->held & turns) != turns) {
-    read_inertia(scene, mesh, rigid);
+    if (!rigid->has_inertia)
+      scene_fail(scene, name, "inertia", "this key is missing: it turns, and `dynamics` asks for its moments of inertia, or for `density` in place of "
+                                         "`mass`.");
+    if (!is_of_a_body(rigid->inertia)) scene_fail(scene, name, "density", "its surface encloses a body without thickness, which may turn for nothing.");
     if (mesh->rotated) into_frame(mesh, rigid->inertia);
   }
   for (int k = 0; k < RIGID_UNKNOWNS; k++) {

@@ -80,12 +80,13 @@ PetscBool timed_bend(const Physics *physics, PetscReal t)
   return PETSC_FALSE;
 }
 
-void timed_fade(Physics *physics, PetscInt n, const PetscReal times[])
+/* A step, and no longer: while it lasts the model has a force that the scene does not name. */
+void timed_fade(Physics *physics, PetscInt n, const PetscReal times[], PetscReal longest)
 {
   for (PetscInt s = 0; s < physics->n_supports; s++) {
     Support *support = &physics->supports[s];
     for (PetscInt k = 0; k < n && support->timed && support->fade < 0; k++) {
-      if (timed_past(times[k], support->until)) support->fade = times[k] - support->until;
+      if (timed_past(times[k], support->until)) support->fade = PetscMin(times[k] - support->until, longest);
     }
     if (support->timed && support->fade < 0) support->fade = 0; /* it holds up to the end */
   }

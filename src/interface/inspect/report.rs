@@ -26,6 +26,9 @@ const LEAST: f64 = 0.99;
 /// A facet that is covered more than this over its area lies under several layers. The shape functions add up to 1 at
 /// every point of the rule, so that a facet's coverage, unlike a node's, has no error of the quadrature.
 const MOST: f64 = 1.0 + layers::SHARED;
+/// An overlap that counts as closed is told where it is more than this over the size of the facets: coordinates of single precision are
+/// off by as much on a mesh of a hundred facets.
+const KEPT: f64 = 1e-5;
 
 /// How much of a node's area is covered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,6 +81,9 @@ pub struct Report {
     pub without_multiplier: usize,
     /// The deepest penetration of a covered node, -g_N over its covered area `[L]`; 0 where there is none.
     pub penetration: f64,
+    /// With weights that keep overlaps: the covered node that overlaps most at the last commit over the size of its facets, by how much
+    /// `[L]`, and what that is over this size; where it is worth telling.
+    pub kept: Option<(usize, f64, f64)>,
     /// With covered nodes `Swapped` or `InsideOut` alone.
     pub finding: Option<Finding>,
 }
@@ -129,6 +135,12 @@ impl Report {
             }
         };
         text.append(format_args!("{finding}"))?;
+        if let Some((a, depth, of_size)) = self.kept {
+            text.append(format_args!(
+                " Node {a} overlaps by {depth:.2e} at the last commit, {of_size:.1e} of the size of its facets: with \
+                 STICKSLIP_WEIGHTS_PERSISTENT that counts as closed, presses nothing and stays."
+            ))?;
+        }
         Ok(text)
     }
 }
@@ -187,7 +199,23 @@ pub fn report<const N: usize>(given: Given<N>, work: &mut Work, (x1, x2): (&[Vec
         inside_out.then_some(Finding::InsideOut)
     };
     let without_multiplier = surfaces.0.nodes_without_row();
-    Ok(Report { nodes, without_multiplier, penetration, finding })
+    let kept = if options.keeps_overlaps() { kept(given)? } else { None };
+    Ok(Report { nodes, without_multiplier, penetration, kept, finding })
+}
+
+/// The worst of the overlaps e_A of the step (docs/formulation.md 4.9), as a length.
+fn kept<const N: usize>(given: Given<N>) -> Result<Option<(usize, f64, f64)>> {
+    let (surfaces, h, mut sums) = (given.setup.surfaces(), given.history(), Vec::new());
+    assemble(surfaces, h.weighted(surfaces), (&h.x1, &h.x2), &mut sums)?;
+    let mut worst = None;
+    for (a, (coverage, gap)) in sums.iter().enumerate().filter(|(a, sum)| sum.0 > given.least_coverage(*a)) {
+        let depth = -given.normal(a)?.dot(gap) / coverage;
+        let of_size = depth / given.facet_size(a);
+        if of_size > worst.map_or(KEPT, |(_, _, most)| most) {
+            worst = Some((a, depth, of_size));
+        }
+    }
+    Ok(worst)
 }
 
 /// Per non-mortar node the most that a facet around it is covered, over the facet's area at `x`.
