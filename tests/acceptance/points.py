@@ -284,7 +284,7 @@ def ranks(verdicts, driver):
 
 
 REFUSALS = {
-    "friction, weights of now": ({"friction": 0.3, "law": "coulomb", "weights": "current"}, "WEIGHTS_COMMITTED"),
+    "friction, weights of now": ({"friction": 0.3, "law": "coulomb", "weights": "current"}, "`weights: committed`"),
     "friction, the paper's slip": ({"friction": 0.3, "law": "coulomb", "slip": "paper"}, "paper's slip"),
     "another law": ({"friction": 0.3, "law": "tresca", "shear_limit": 1.0}, "not Coulomb's"),
     "tied": ({"law": "tied"}, "tied"),
@@ -301,4 +301,4 @@ def refused(verdicts, driver):
     for name, (law, word) in REFUSALS.items():
         run = driver.run(path, *options(law), label=f"refused_{name}", expect=None)
         said = run.text.strip().splitlines()[-1] if run.text.strip() else ""
-        verdicts.true(f"refused: {name}: {said[:120]}", run.exit_code in (1, 3) and word in said and "DECISION_POINTS" in said, "by name")
+        verdicts.true(f"refused: {name}: {said[:120]}", run.exit_code in (1, 3) and word in said and "`decision: points`" in said, "by name")
