@@ -26,6 +26,7 @@ def offsets(verdicts, driver):
     adjusted(verdicts, driver)
     adjusted_by_two(verdicts, driver)
     ramp(verdicts, driver)
+    decided_at_points(verdicts, driver)
     rings(verdicts, driver)
     overflowing(verdicts, driver)
 
@@ -235,3 +236,31 @@ def ramp(verdicts, driver):
         results.append(pressures(run))
         verdicts.below(f"interference {name}: cut-backs", run.summary["cutbacks"], 0, "none")
     verdicts.below("interference over ten steps: pressures", np.abs(results[1] / results[0] - 1).max(), RAMP_BOUND, "in one")
+
+
+# A bar of two blocks; Newton's tolerance, over the force.
+BAR_BOUND = 1e-9
+
+
+def decided_at_points(verdicts, driver):
+    """Blocks between fixed ends, on meshes that do not match, with an interference: u_z is linear, whatever friction holds."""
+    for weights, overlap, offset, curve in (("committed", 0, -0.02, [0, 0, 1, 1]), ("reference", 0.7, 0.68, None)):
+        young, length = 1000, 2 - overlap
+        block = {"type": "box", "young": young, "poisson": 0}
+        law = {"friction": 0.3, "decision": "points", "basis": "dual", "weights": weights, "offset": offset}
+        scene = {
+            "schema": 1,
+            "bodies": ["upper", "lower"],
+            "upper": {**block, "lower": [0, 0, 1 - overlap], "upper": [1, 1, 2 - overlap], "cells": [3, 2, 2]},
+            "lower": {**block, "lower": [0, 0, 0], "upper": [1, 1, 1], "cells": [2, 3, 2]},
+            "supports": ["ground", "roof"],
+            "ground": {"surface": "lower.zmin", "components": ["x", "y", "z"]},
+            "roof": {"surface": "upper.zmax", "components": ["x", "y", "z"]},
+            "interfaces": ["contact"],
+            "contact": {"nonmortar": "upper.zmin", "mortar": "lower.zmax", **law, **({"offset_curve": curve} if curve else {})},
+            "steps": {"count": 4 if curve else 1},
+        }
+        run = driver.run(write(scene, driver.output / f"points_{weights}.yaml"))
+        exact = young * (overlap - offset if overlap else -offset) / 2
+        force = run.summary["steps"][-1]["reactions"]["ground"][2]
+        verdicts.below(f"offset, decided at points with friction, weights {weights}: force", abs(force / exact - 1), BAR_BOUND, f"{exact:g}")
