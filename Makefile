@@ -227,24 +227,24 @@ check:
 	$(SAY) "A handful of scenes and of tests of the ABI"
 	@cd $(BUILD) && ctest --output-on-failure --no-tests=error --parallel $(JOBS) -R '$(CHECKED)'
 
-# The library that is installed is compiled on one processor: the Rust tests use the other one, and the references what is left.
+# The library that is installed is compiled on one processor: the Rust tests use the other one.
 # What cargo keeps to compile less after a change takes a seventh more of the first time: it does so where somebody has used cargo.
 ifeq ($(wildcard target/debug/incremental/*),)
 test: export CARGO_INCREMENTAL := 0
 endif
 test:
 	@.ci/setup test
-	@$(MAKE) --no-print-directory -j3 --output-sync=line TESTS=ON rust-tests cmake-build reference
+	@$(MAKE) --no-print-directory -j2 --output-sync=line TESTS=ON rust-tests cmake-build
 	$(SAY) "C and Fortran tests, examples, installed tree (ctest)"
 	@cd $(BUILD) && ctest --output-on-failure --no-tests=error --parallel $(JOBS) -LE long
 	$(SAY) "All tests passed"
 
 test-long:
 	@.ci/setup test
-	@$(MAKE) --no-print-directory cmake-build TESTS=ON
+	@$(MAKE) --no-print-directory -j2 --output-sync=line TESTS=ON cmake-build reference
 	@$(LOCKED) cmake --build $(BUILD) --parallel $(JOBS) --target sanitize
 	$(SAY) "The Rust tests that take longer, those beside the sources, a pass of the benches"
-	cargo test --locked --lib --bench kernels
+	cargo test --locked --lib --bench kernels $(LONG_RUST_TESTS:%=--test %)
 	cargo test --locked --test interface -- --ignored --skip ratios::
 	$(SAY) "The tests that take longer (ctest)"
 	@cd $(BUILD) && ctest --output-on-failure --no-tests=error --parallel $(JOBS) -L long
@@ -272,12 +272,15 @@ uninstall:
 		(echo "$$files" | xargs -d '\n' -n 1 dirname | sort -ru | \
 			xargs -d '\n' -n 1 rmdir -p --ignore-fail-on-non-empty 2>/dev/null; true)
 
+# Those of random input take a minute to compile: `make test-long`.
+LONG_RUST_TESTS = fuzz properties
+RUST_TESTS = $(filter-out $(LONG_RUST_TESTS),$(patsubst tests/%/main.rs,%,$(wildcard tests/*/main.rs)))
 rust-tests:
 	$(SAY) "Format and lints"
 	cargo fmt --all --check
 	cargo clippy --locked --all-targets -- -D warnings
 	$(SAY) "Rust and C ABI tests"
-	cargo test --locked --test '*'
+	cargo test --locked $(RUST_TESTS:%=--test %)
 	cargo test --locked --doc
 
 cmake-build:
@@ -286,7 +289,7 @@ cmake-build:
 		-DPython3_EXECUTABLE=$(PYTHON)
 	@$(LOCKED) cmake --build $(BUILD) --parallel $(JOBS)
 
-# No network: what `make test` builds.
+# No network: what `make check` and `make test-long` build.
 reference:
 	@.ci/setup docs
 	$(SAY) "Reference of the C interface and the guides"
