@@ -15,7 +15,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: packages hosts newcomer help demo gallery effects aids study border compare bench random fuzz stability scaling scaling-ranks ranks ranks-full newest-petsc ratios digest wheel python-examples check test test-long build install uninstall docs reference abi sizes header meshes clean cmake-build rust-tests
+.PHONY: packages hosts newcomer help demo gallery effects aids study border compare bench random fuzz stability scaling scaling-ranks ranks ranks-full newest-petsc ratios digest wheel python-examples check test test-long test-full build install uninstall docs reference abi sizes header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
@@ -27,17 +27,18 @@ help:
 	@echo "make compare the same problems in other programs, those that are installed (FIGURES=1: renew the table)"
 	@echo "make bench   what the kernels cost, over a C++ baseline and in instructions (FIGURES=1: renew its table)"
 	@echo "make stability  hard cases x severity, each compared with an answer: build/stability/index.html; can be resumed;"
-	@echo "             QUICK=1: the part that make test-long runs; ONLY='FILE ...' of tests/stability/cases; BASIS=dual;"
+	@echo "             QUICK=1: the part that is among the tests; ONLY='FILE ...' of tests/stability/cases; BASIS=dual;"
 	@echo "             NORMALS=current; FIGURES=1: as above"
 	@echo "make check   the quick part of it, two minutes once built: format, lints, Rust tests, a few scenes"
 	@echo "make test    tests and checks, the same in every run; make test-long has the rest"
 	@echo "make test-long  those that take too long for it; .ci/run runs both"
+	@echo "make test-full  those that take minutes, a quarter of an hour: before a release, and where many files changed"
 	@echo "make random  the property tests on other random input, ten times as much (SEED=n CASES=n)"
 	@echo "make ratios  the force of fine facets in coarse ones against the ratio of both and the number of steps, an hour"
 	@echo "make scaling  linear solvers against the number of unknowns: a table (SIZES='N ...'; FIGURES=1: as above)"
 	@echo "make scaling-ranks  what a rank holds and does of the contact, on 2 and 4 ranks: a table (SIZES=, FIGURES=1: as above)"
 	@echo "make newest-petsc   the driver on the newest PETSc of PyPI, built for it: half an hour the first time"
-	@echo "make ranks   contact on eight ranks, however few processors there are: a minute; a part of make test-long"
+	@echo "make ranks   contact on eight ranks, however few processors there are: a minute; a part of make test-full"
 	@echo "make ranks-full  scenes in full length on two ranks against one, an hour or two; can be resumed"
 	@echo "make digest  the bits of what library and driver compute, compared with those of before (KEEP=1: these are they)"
 	@echo "make fuzz    fuzz the pair kernel, the handle, its effects and the C ABI, a quarter of an hour each (FUZZ_SECONDS=)"
@@ -236,7 +237,7 @@ test:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory -j2 --output-sync=line TESTS=ON rust-tests cmake-build
 	$(SAY) "C and Fortran tests, examples, installed tree (ctest)"
-	@cd $(BUILD) && ctest --output-on-failure --no-tests=error --parallel $(JOBS) -LE long
+	@cd $(BUILD) && ctest --output-on-failure --no-tests=error --parallel $(JOBS) -LE 'long|full'
 	$(SAY) "All tests passed"
 
 test-long:
@@ -248,6 +249,12 @@ test-long:
 	cargo test --locked --test interface -- --ignored --skip ratios::
 	$(SAY) "The tests that take longer (ctest)"
 	@cd $(BUILD) && ctest --output-on-failure --no-tests=error --parallel $(JOBS) -L long
+
+test-full:
+	@.ci/setup test
+	@$(MAKE) --no-print-directory cmake-build TESTS=ON
+	$(SAY) "The tests that take longest (ctest)"
+	@cd $(BUILD) && ctest --output-on-failure --no-tests=error --parallel $(JOBS) -L full
 
 build:
 	@.ci/setup build
