@@ -246,7 +246,7 @@ test-long:
 	@$(LOCKED) cmake --build $(BUILD) --parallel $(JOBS) --target sanitize
 	$(SAY) "The Rust tests that take longer, those beside the sources, a pass of the benches"
 	cargo test --locked --lib --bench kernels $(LONG_RUST_TESTS:%=--test %)
-	cargo test --locked --test interface -- --ignored --skip ratios::
+	cargo test --locked --test interface long::
 	$(SAY) "The tests that take longer (ctest)"
 	@cd $(BUILD) && ctest --output-on-failure --no-tests=error --parallel $(JOBS) -L long
 
@@ -287,7 +287,7 @@ rust-tests:
 	cargo fmt --all --check
 	cargo clippy --locked --all-targets -- -D warnings
 	$(SAY) "Rust and C ABI tests"
-	cargo test --locked $(RUST_TESTS:%=--test %)
+	cargo test --locked $(RUST_TESTS:%=--test %) -- --skip long::
 	cargo test --locked --doc
 
 cmake-build:

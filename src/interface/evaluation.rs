@@ -2,7 +2,6 @@
 
 use super::contact::Contact;
 use super::data::extent::Extent;
-use super::data::options::Weights;
 use super::inspect::closing;
 use super::inspect::diagnosis::{self, Diagnosis};
 use super::inspect::equilibrium::{self, Equilibrium, Scales};
@@ -211,7 +210,7 @@ impl<const N: usize> Contact<N> {
             states,
             suspects,
         );
-        if self.setup.options.effective_weights() == Weights::Reference {
+        if self.setup.acts_along_first_normals() {
             diagnosis.turn = self.equilibrium(x1, x2, lambda, sums, &Scales::default())?.turn;
         }
         Ok(diagnosis)

@@ -461,11 +461,18 @@ fn quadratic_facets_take_the_same_step_as_with_multipliers() {
     }
 }
 
-#[test]
-#[ignore = "a third of a minute or so: make test-long"]
-fn the_matrix_of_quadratic_facets_is_the_derivative() {
-    for weak_coverage in [NO_WEAK_COVERAGE, WEAK] {
-        let options = Options { mu: 0.4, weak_coverage, ..options() };
-        is_its_derivative(&mut of_parents::<3>(options, false, [&[8], &[6]]), &format!("quadratic {weak_coverage}"));
+/// Seconds and more: `make test-long`.
+mod long {
+    use super::*;
+
+    #[test]
+    fn the_matrix_of_quadratic_facets_is_the_derivative() {
+        for weak_coverage in [NO_WEAK_COVERAGE, WEAK] {
+            let options = Options { mu: 0.4, weak_coverage, ..options() };
+            is_its_derivative(
+                &mut of_parents::<3>(options, false, [&[8], &[6]]),
+                &format!("quadratic {weak_coverage}"),
+            );
+        }
     }
 }

@@ -167,24 +167,28 @@ fn a_surface_slides_over_an_edge_and_back_in_a_thousand_steps() {
     }
 }
 
-/// Full rank throughout, nodes that come and go included. A node whose shape function is small where it is covered has
-/// hardly a say: the least singular value is a thousandth or so of the coverage at which it is let go.
-#[test]
-#[ignore = "seconds of many facets: make test-long"]
-fn tangents_keep_their_rank_over_an_edge() {
-    /// Measured 1.8e-3 over a side, 2e-4 over a corner, for coverage_min from 1e-8 to 1e-3.
-    const RANK_OVER_COVERAGE: f64 = 1e-4;
-    for (mu, coverage_min) in [(0.0, 1e-4), (0.3, COVERAGE_MIN), (3.0, COVERAGE_MIN)] {
-        for (over_corner, back) in [(false, false), (false, true), (true, false), (true, true)] {
-            let mut places = over_the_edge(over_corner);
-            if back {
-                places.reverse();
+/// Seconds and more: `make test-long`.
+mod long {
+    use super::*;
+
+    /// Full rank throughout, nodes that come and go included. A node whose shape function is small where it is covered has
+    /// hardly a say: the least singular value is a thousandth or so of the coverage at which it is let go.
+    #[test]
+    fn tangents_keep_their_rank_over_an_edge() {
+        /// Measured 1.8e-3 over a side, 2e-4 over a corner, for coverage_min from 1e-8 to 1e-3.
+        const RANK_OVER_COVERAGE: f64 = 1e-4;
+        for (mu, coverage_min) in [(0.0, 1e-4), (0.3, COVERAGE_MIN), (3.0, COVERAGE_MIN)] {
+            for (over_corner, back) in [(false, false), (false, true), (true, false), (true, true)] {
+                let mut places = over_the_edge(over_corner);
+                if back {
+                    places.reverse();
+                }
+                let steps = slide(&places, over_corner, mu, coverage_min);
+                let rank = steps.iter().map(|s| s.rank).fold(f64::INFINITY, f64::min);
+                let what = format!("mu {mu}, corner {over_corner}, back {back}, coverage_min {coverage_min:.0e}");
+                println!("{what}: least singular value {rank:.1e}");
+                assert!(rank >= RANK_OVER_COVERAGE * coverage_min, "{what}: {rank}");
             }
-            let steps = slide(&places, over_corner, mu, coverage_min);
-            let rank = steps.iter().map(|s| s.rank).fold(f64::INFINITY, f64::min);
-            let what = format!("mu {mu}, corner {over_corner}, back {back}, coverage_min {coverage_min:.0e}");
-            println!("{what}: least singular value {rank:.1e}");
-            assert!(rank >= RANK_OVER_COVERAGE * coverage_min, "{what}: {rank}");
         }
     }
 }

@@ -208,46 +208,6 @@ fn values_of(c: &mut Contact<3>, x: (&[Vec3], &[Vec3]), lambda: &[Vec3], n: usiz
     values.iter().map(|v| v.to_bits()).collect()
 }
 
-#[test]
-#[ignore = "a third of a minute or so: make test-long"]
-fn a_plan_of_many_facets_has_the_same_values_on_any_number_of_threads() {
-    for basis in [MultiplierBasis::Standard, MultiplierBasis::Dual] {
-        let mut expected: Option<Vec<u64>> = None;
-        for threads in [1, 2, 3, 7] {
-            let mut c = many(Options { basis, threads, ..options() });
-            let (one, two) = (c.surfaces().0.reference.clone(), c.surfaces().1.reference.clone());
-            let x1: Vec<_> = one.iter().map(|x| x + Vec3::new(2e-3, 1e-3, 1e-4 * (30.0 * x.x).sin())).collect();
-            let lambda = vec![Vec3::new(0.1, 0.0, -1.0); x1.len()];
-            if threads == 1 {
-                agrees(&mut c, &x1, &two, &lambda, &format!("{basis:?}"));
-            }
-            let n = c.make_plan((&x1, &two), PlanPairs::Possible).unwrap();
-            let found = values_of(&mut c, (&x1, &two), &lambda, n);
-            assert!(*expected.get_or_insert_with(|| found.clone()) == found, "{basis:?}, {threads} threads");
-        }
-    }
-}
-
-/// Pairs that are not in the plan lead to rows of another chunk: that was an internal error, and not a refusal.
-#[test]
-#[ignore = "seconds of many facets: make test-long"]
-fn a_plan_of_many_facets_that_does_not_suffice_is_refused() {
-    for (basis, threads) in [(MultiplierBasis::Standard, 1), (MultiplierBasis::Dual, 1), (MultiplierBasis::Standard, 3)]
-    {
-        let mut c = many(Options { basis, threads, ..options() });
-        let (one, two) = (c.surfaces().0.reference.clone(), c.surfaces().1.reference.clone());
-        let lambda = vec![Vec3::new(0.1, 0.0, -1.0); one.len()];
-        let n = c.make_plan((&one, &two), PlanPairs::Possible).unwrap();
-        let before = values_of(&mut c, (&one, &two), &lambda, n);
-        for slide in [0.02, 0.09] {
-            let far: Vec<_> = one.iter().map(|x| x + Vec3::new(slide, slide, 0.0)).collect();
-            let refused = c.plan_values((&far, &two), &lambda, None, &mut vec![0.0; n]).unwrap_err();
-            assert_eq!(refused.kind, Kind::MissingEntry, "{basis:?}, {threads} threads: {refused}");
-        }
-        assert!(values_of(&mut c, (&one, &two), &lambda, n) == before, "{basis:?}, {threads} threads");
-    }
-}
-
 /// A quad over four triangles that meet in a point. A fourth one, all of whose nodes the plan knows by the other three, has
 /// blocks of its nodes with each other that the plan lacks: they were left out, and values came without a word.
 #[test]
@@ -310,5 +270,49 @@ fn mortar_nodes_without_equations_are_never_missing() {
         let slid: Vec<_> = one.x.iter().map(|x| x + Vec3::new(0.3, 0.2, 0.0)).collect();
         c.plan_values((&slid, &two.x), &lambda, None, &mut vec![0.0; n]).unwrap();
         agrees(&mut c, &slid, &two.x, &lambda, &format!("{basis:?}"));
+    }
+}
+
+/// Seconds and more: `make test-long`.
+mod long {
+    use super::*;
+
+    #[test]
+    fn a_plan_of_many_facets_has_the_same_values_on_any_number_of_threads() {
+        for basis in [MultiplierBasis::Standard, MultiplierBasis::Dual] {
+            let mut expected: Option<Vec<u64>> = None;
+            for threads in [1, 2, 3, 7] {
+                let mut c = many(Options { basis, threads, ..options() });
+                let (one, two) = (c.surfaces().0.reference.clone(), c.surfaces().1.reference.clone());
+                let x1: Vec<_> = one.iter().map(|x| x + Vec3::new(2e-3, 1e-3, 1e-4 * (30.0 * x.x).sin())).collect();
+                let lambda = vec![Vec3::new(0.1, 0.0, -1.0); x1.len()];
+                if threads == 1 {
+                    agrees(&mut c, &x1, &two, &lambda, &format!("{basis:?}"));
+                }
+                let n = c.make_plan((&x1, &two), PlanPairs::Possible).unwrap();
+                let found = values_of(&mut c, (&x1, &two), &lambda, n);
+                assert!(*expected.get_or_insert_with(|| found.clone()) == found, "{basis:?}, {threads} threads");
+            }
+        }
+    }
+
+    /// Pairs that are not in the plan lead to rows of another chunk: that was an internal error, and not a refusal.
+    #[test]
+    fn a_plan_of_many_facets_that_does_not_suffice_is_refused() {
+        for (basis, threads) in
+            [(MultiplierBasis::Standard, 1), (MultiplierBasis::Dual, 1), (MultiplierBasis::Standard, 3)]
+        {
+            let mut c = many(Options { basis, threads, ..options() });
+            let (one, two) = (c.surfaces().0.reference.clone(), c.surfaces().1.reference.clone());
+            let lambda = vec![Vec3::new(0.1, 0.0, -1.0); one.len()];
+            let n = c.make_plan((&one, &two), PlanPairs::Possible).unwrap();
+            let before = values_of(&mut c, (&one, &two), &lambda, n);
+            for slide in [0.02, 0.09] {
+                let far: Vec<_> = one.iter().map(|x| x + Vec3::new(slide, slide, 0.0)).collect();
+                let refused = c.plan_values((&far, &two), &lambda, None, &mut vec![0.0; n]).unwrap_err();
+                assert_eq!(refused.kind, Kind::MissingEntry, "{basis:?}, {threads} threads: {refused}");
+            }
+            assert!(values_of(&mut c, (&one, &two), &lambda, n) == before, "{basis:?}, {threads} threads");
+        }
     }
 }

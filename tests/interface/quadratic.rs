@@ -327,36 +327,6 @@ fn tied_gaps_of_quadratic_facets_turn_with_them() {
     }
 }
 
-/// Facets enough for several chunks a phase (`src/interface/plan/phases.rs`), in whose order a plan adds blocks up.
-#[test]
-#[ignore = "a third of a minute or so: make test-long"]
-fn threads_do_not_change_a_bit() {
-    const CELLS: i64 = 58;
-    let one = grid_of(CELLS, CELLS, [0.0, 0.0], [1.0, 1.0], false, &[8, 9]);
-    let mut two = grid_of(40, 41, [-0.1, -0.1], [1.1, 1.1], true, &[6, 9, 8]);
-    two.x.iter_mut().for_each(|x| x.z = 0.001 * x.x * x.y);
-    for basis in [MultiplierBasis::Standard, MultiplierBasis::Dual] {
-        let mut expected = None;
-        for threads in [1, 2, 3] {
-            let options = Options { threads, basis, ..options() };
-            let has = has_row(&one, options.space);
-            let lambda: Vec<_> = has.iter().map(|has| Vec3::new(0.1, 0.0, if *has { -0.5 } else { 0.0 })).collect();
-            let mut c = contact_of::<3>(&one, &two, false, options);
-            let residual = c.residual(&one.x, &two.x, &lambda, None).unwrap();
-            let n = c.make_plan((&one.x, &two.x), PlanPairs::Active(Extent::Whole)).unwrap();
-            let mut values = vec![f64::NAN; n];
-            c.plan_values((&one.x, &two.x), &lambda, None, &mut values).unwrap();
-            assert!(values.iter().all(|v| v.is_finite()) && values.iter().any(|v| v.abs() > 1e-5));
-            let found = (residual, values);
-            assert!(*expected.get_or_insert_with(|| found.clone()) == found, "{basis:?}, {threads} threads");
-            // Too few entries: refused, on threads too.
-            let far: Vec<_> = one.x.iter().map(|x| x + Vec3::new(0.05, 0.02, 0.0)).collect();
-            let refused = c.plan_values((&far, &two.x), &lambda, None, &mut vec![0.0; n]).unwrap_err();
-            assert_eq!(refused.kind, stickslip::error::Kind::MissingEntry, "{basis:?}, {threads} threads: {refused}");
-        }
-    }
-}
-
 #[test]
 fn frozen_normals_and_weights_are_tangents_too() {
     for tangent in [Tangent::FrozenNormals, Tangent::FrozenWeights] {
@@ -396,4 +366,42 @@ fn what_quadratic_facets_do_not_take_is_refused() {
     assert!(text.contains("facet 0") && text.contains("quarter"), "{text}");
     let text = Surface::new("mortar", one.x.clone(), &[(0..7).collect()], numbered(0, 8)).unwrap_err().to_string();
     assert!(text.contains("facet 0 has 7 nodes; 3, 4, 6, 8 or 9 are allowed"), "{text}");
+}
+
+/// Seconds and more: `make test-long`.
+mod long {
+    use super::*;
+
+    /// Facets enough for several chunks a phase (`src/interface/plan/phases.rs`), in whose order a plan adds blocks up.
+    #[test]
+    fn threads_do_not_change_a_bit() {
+        const CELLS: i64 = 58;
+        let one = grid_of(CELLS, CELLS, [0.0, 0.0], [1.0, 1.0], false, &[8, 9]);
+        let mut two = grid_of(40, 41, [-0.1, -0.1], [1.1, 1.1], true, &[6, 9, 8]);
+        two.x.iter_mut().for_each(|x| x.z = 0.001 * x.x * x.y);
+        for basis in [MultiplierBasis::Standard, MultiplierBasis::Dual] {
+            let mut expected = None;
+            for threads in [1, 2, 3] {
+                let options = Options { threads, basis, ..options() };
+                let has = has_row(&one, options.space);
+                let lambda: Vec<_> = has.iter().map(|has| Vec3::new(0.1, 0.0, if *has { -0.5 } else { 0.0 })).collect();
+                let mut c = contact_of::<3>(&one, &two, false, options);
+                let residual = c.residual(&one.x, &two.x, &lambda, None).unwrap();
+                let n = c.make_plan((&one.x, &two.x), PlanPairs::Active(Extent::Whole)).unwrap();
+                let mut values = vec![f64::NAN; n];
+                c.plan_values((&one.x, &two.x), &lambda, None, &mut values).unwrap();
+                assert!(values.iter().all(|v| v.is_finite()) && values.iter().any(|v| v.abs() > 1e-5));
+                let found = (residual, values);
+                assert!(*expected.get_or_insert_with(|| found.clone()) == found, "{basis:?}, {threads} threads");
+                // Too few entries: refused, on threads too.
+                let far: Vec<_> = one.x.iter().map(|x| x + Vec3::new(0.05, 0.02, 0.0)).collect();
+                let refused = c.plan_values((&far, &two.x), &lambda, None, &mut vec![0.0; n]).unwrap_err();
+                assert_eq!(
+                    refused.kind,
+                    stickslip::error::Kind::MissingEntry,
+                    "{basis:?}, {threads} threads: {refused}"
+                );
+            }
+        }
+    }
 }

@@ -116,44 +116,6 @@ fn wall(normal: Vec3, distance: f64) -> Elastic {
     layer(surface, -normal * 0.4, YOUNG)
 }
 
-/// Walls at 35 and at 50 degrees, a ball between them under its weight: their forces follow from two equations.
-#[test]
-#[ignore = "a third of a minute or so: make test-long"]
-fn a_ball_settles_into_a_groove_as_statics_say() {
-    // A ball in closed form, to which only the other side can have the multipliers; and one of facets.
-    let frame = Mesh { x: [Vec3::zeros(), Vec3::x(), Vec3::y(), Vec3::z()].to_vec(), facets: Vec::new() };
-    for (elastic_first, ball) in [(true, frame), (true, ball(12)), (false, ball(12))] {
-        let [a, b] = [35.0_f64, 50.0].map(f64::to_radians);
-        let normals = [Vec3::new(a.sin(), 0.0, a.cos()), Vec3::new(-b.sin(), 0.0, b.cos())];
-        let weight = 3.0;
-        let mut scene = Contacts::<1>::new(
-            normals.map(|normal| wall(normal, 0.97)).into(),
-            // Without friction nothing holds it along the groove, nor against turning.
-            (vec![ball.clone(); 2], Vec3::new(0.1, -0.2, 0.3), [true, false, true, false, false, false]),
-            elastic_first,
-            None,
-            &options(Friction::None),
-        );
-        scene.load[2] = -weight;
-        for step in 0..2 {
-            let (steps, _) = scene.solve();
-            assert!(steps <= FEW_STEPS, "{steps} steps");
-            let expected = [b.sin(), a.sin()].map(|s| weight * s / (a + b).sin());
-            let forces: [Vec3; 2] = [0, 1].map(|c| scene.forces_on_elastic(c).iter().sum());
-            let sum = forces[0] + forces[1];
-            // The ball's own equations hold whichever side has the normals.
-            assert!((sum.z - weight).abs() <= STATICS * weight && sum.x.abs() <= STATICS * weight, "{sum}");
-            // With the normals of the flat walls each force is that of statics; those of the ball lean as its facets do.
-            for c in (0..2).filter(|_| elastic_first) {
-                let along = forces[c].dot(&normals[c]);
-                assert!((along - expected[c]).abs() <= STATICS * weight, "wall {c}, step {step}: {along} {expected:?}");
-            }
-            scene.commit();
-        }
-        println!("the ball has moved by {:?}", scene.q.fixed_rows::<3>(0).as_slice());
-    }
-}
-
 /// A plate on a tied layer that a moment turns by an angle that is not small: six equations, and as many rows and columns
 /// whatever its mesh.
 #[test]
@@ -299,62 +261,106 @@ fn half_width_of(x: &[Vec3], forces: &[Vec3]) -> f64 {
 /// Hertz within 2 % at ten facets.
 const HERTZ: f64 = 0.02;
 
-/// A rigid cylinder pressed by a force onto a flat, and one that finds its own height between two flats that close.
-#[test]
-#[ignore = "a third of a minute or so: make test-long"]
-fn a_cylinder_between_flats_is_hertz() {
-    const FACETS: f64 = 10.0;
-    const OF_CIRCLE: usize = 4000;
-    let (poisson, radius, half_width) = (0.3, 1.0, 0.05);
-    let modulus = YOUNG / (1.0 - poisson * poisson);
-    // a^2 = 4 F R / (pi E'), and the approach of a rigid cylinder and a point at a depth (K. L. Johnson, Contact mechanics, 1985,
-    // 4.3 and 5.6).
-    let force = PI * half_width * half_width * modulus / (4.0 * radius);
-    let (reach, fine) = (20.0 * half_width, 2.0 * half_width / FACETS);
-    let logarithm = (2.0_f64 * reach / half_width).ln() - poisson / (2.0 * (1.0 - poisson));
-    let approach = 2.0 * force / (PI * modulus) * logarithm;
-    // A quarter of the circle towards a flat, fine against the flat's facets, its body to the left.
-    let quarter = |middle: f64| -> Mesh {
-        let angle = |k: usize| middle + FRAC_PI_2 * (k as f64 / OF_CIRCLE as f64 - 0.5);
-        let x = (0..=OF_CIRCLE).map(|k| Vec3::new(angle(k).cos(), angle(k).sin(), 0.0) * radius).collect();
-        Mesh { x, facets: (0..OF_CIRCLE as i64).map(|k| vec![k, k + 1]).collect() }
-    };
-    let flat = |sign: f64, descent: f64| {
-        let mut flat = half_plane::flat(fine, reach, sign, force, (YOUNG, poisson));
-        flat.surface.x.iter_mut().for_each(|x| x.y = sign * radius);
-        // Its border comes down, and all of it with the border.
-        let all = DVector::from_fn(flat.load.len(), |s, _| if s % 2 == 1 { -descent } else { 0.0 });
-        flat.load += &flat.stiffness * all;
-        flat
-    };
-    let free = [false, true, false, false, false, false];
-    for two in [false, true] {
-        let (flats, circles) = if two {
-            (vec![flat(-1.0, 0.0), flat(1.0, 2.0 * approach)], vec![quarter(-FRAC_PI_2), quarter(FRAC_PI_2)])
-        } else {
-            (vec![flat(-1.0, 0.0)], vec![quarter(-FRAC_PI_2)])
-        };
-        let mut scene = Contacts::<1>::new(
-            flats,
-            (circles, Vec3::new(0.3, 0.2, 0.0), free),
-            true,
-            Some(Measure::Thickness(1.0)),
-            &options(Friction::None),
-        );
-        scene.load[1] = if two { 0.0 } else { -force };
-        scene.q[1] = -approach; // a circle touches in a point, which holds nothing
-        let (steps, _) = scene.solve();
-        let forces: Vec<Vec<Vec3>> = (0..scene.contacts.len()).map(|c| scene.forces_on_elastic(c)).collect();
-        let sums: Vec<f64> = forces.iter().map(|f| f.iter().map(|f| f.y).sum()).collect();
-        assert!((sums.iter().sum::<f64>() + scene.load[1]).abs() <= STATICS * force, "{sums:?}");
-        assert!((sums[0] / force - 1.0).abs() <= if two { HERTZ } else { STATICS }, "{sums:?} {force}");
-        let down = -scene.q[1];
-        println!("{steps} steps, forces {sums:?} ({force}), approach {down:.6} ({approach:.6})");
-        for (body, forces) in scene.elastic.iter().zip(&forces) {
-            let found = half_width_of(&body.surface.x, forces);
-            println!("half width {found:.5} ({half_width})");
-            assert!((found / half_width - 1.0).abs() <= HERTZ);
+/// Seconds and more: `make test-long`.
+mod long {
+    use super::*;
+
+    /// Walls at 35 and at 50 degrees, a ball between them under its weight: their forces follow from two equations.
+    #[test]
+    fn a_ball_settles_into_a_groove_as_statics_say() {
+        // A ball in closed form, to which only the other side can have the multipliers; and one of facets.
+        let frame = Mesh { x: [Vec3::zeros(), Vec3::x(), Vec3::y(), Vec3::z()].to_vec(), facets: Vec::new() };
+        for (elastic_first, ball) in [(true, frame), (true, ball(12)), (false, ball(12))] {
+            let [a, b] = [35.0_f64, 50.0].map(f64::to_radians);
+            let normals = [Vec3::new(a.sin(), 0.0, a.cos()), Vec3::new(-b.sin(), 0.0, b.cos())];
+            let weight = 3.0;
+            let mut scene = Contacts::<1>::new(
+                normals.map(|normal| wall(normal, 0.97)).into(),
+                // Without friction nothing holds it along the groove, nor against turning.
+                (vec![ball.clone(); 2], Vec3::new(0.1, -0.2, 0.3), [true, false, true, false, false, false]),
+                elastic_first,
+                None,
+                &options(Friction::None),
+            );
+            scene.load[2] = -weight;
+            for step in 0..2 {
+                let (steps, _) = scene.solve();
+                assert!(steps <= FEW_STEPS, "{steps} steps");
+                let expected = [b.sin(), a.sin()].map(|s| weight * s / (a + b).sin());
+                let forces: [Vec3; 2] = [0, 1].map(|c| scene.forces_on_elastic(c).iter().sum());
+                let sum = forces[0] + forces[1];
+                // The ball's own equations hold whichever side has the normals.
+                assert!((sum.z - weight).abs() <= STATICS * weight && sum.x.abs() <= STATICS * weight, "{sum}");
+                // With the normals of the flat walls each force is that of statics; those of the ball lean as its facets do.
+                for c in (0..2).filter(|_| elastic_first) {
+                    let along = forces[c].dot(&normals[c]);
+                    assert!(
+                        (along - expected[c]).abs() <= STATICS * weight,
+                        "wall {c}, step {step}: {along} {expected:?}"
+                    );
+                }
+                scene.commit();
+            }
+            println!("the ball has moved by {:?}", scene.q.fixed_rows::<3>(0).as_slice());
         }
-        assert!((down / approach - 1.0).abs() <= HERTZ);
+    }
+
+    /// A rigid cylinder pressed by a force onto a flat, and one that finds its own height between two flats that close.
+    #[test]
+    fn a_cylinder_between_flats_is_hertz() {
+        const FACETS: f64 = 10.0;
+        const OF_CIRCLE: usize = 4000;
+        let (poisson, radius, half_width) = (0.3, 1.0, 0.05);
+        let modulus = YOUNG / (1.0 - poisson * poisson);
+        // a^2 = 4 F R / (pi E'), and the approach of a rigid cylinder and a point at a depth (K. L. Johnson, Contact mechanics, 1985,
+        // 4.3 and 5.6).
+        let force = PI * half_width * half_width * modulus / (4.0 * radius);
+        let (reach, fine) = (20.0 * half_width, 2.0 * half_width / FACETS);
+        let logarithm = (2.0_f64 * reach / half_width).ln() - poisson / (2.0 * (1.0 - poisson));
+        let approach = 2.0 * force / (PI * modulus) * logarithm;
+        // A quarter of the circle towards a flat, fine against the flat's facets, its body to the left.
+        let quarter = |middle: f64| -> Mesh {
+            let angle = |k: usize| middle + FRAC_PI_2 * (k as f64 / OF_CIRCLE as f64 - 0.5);
+            let x = (0..=OF_CIRCLE).map(|k| Vec3::new(angle(k).cos(), angle(k).sin(), 0.0) * radius).collect();
+            Mesh { x, facets: (0..OF_CIRCLE as i64).map(|k| vec![k, k + 1]).collect() }
+        };
+        let flat = |sign: f64, descent: f64| {
+            let mut flat = half_plane::flat(fine, reach, sign, force, (YOUNG, poisson));
+            flat.surface.x.iter_mut().for_each(|x| x.y = sign * radius);
+            // Its border comes down, and all of it with the border.
+            let all = DVector::from_fn(flat.load.len(), |s, _| if s % 2 == 1 { -descent } else { 0.0 });
+            flat.load += &flat.stiffness * all;
+            flat
+        };
+        let free = [false, true, false, false, false, false];
+        for two in [false, true] {
+            let (flats, circles) = if two {
+                (vec![flat(-1.0, 0.0), flat(1.0, 2.0 * approach)], vec![quarter(-FRAC_PI_2), quarter(FRAC_PI_2)])
+            } else {
+                (vec![flat(-1.0, 0.0)], vec![quarter(-FRAC_PI_2)])
+            };
+            let mut scene = Contacts::<1>::new(
+                flats,
+                (circles, Vec3::new(0.3, 0.2, 0.0), free),
+                true,
+                Some(Measure::Thickness(1.0)),
+                &options(Friction::None),
+            );
+            scene.load[1] = if two { 0.0 } else { -force };
+            scene.q[1] = -approach; // a circle touches in a point, which holds nothing
+            let (steps, _) = scene.solve();
+            let forces: Vec<Vec<Vec3>> = (0..scene.contacts.len()).map(|c| scene.forces_on_elastic(c)).collect();
+            let sums: Vec<f64> = forces.iter().map(|f| f.iter().map(|f| f.y).sum()).collect();
+            assert!((sums.iter().sum::<f64>() + scene.load[1]).abs() <= STATICS * force, "{sums:?}");
+            assert!((sums[0] / force - 1.0).abs() <= if two { HERTZ } else { STATICS }, "{sums:?} {force}");
+            let down = -scene.q[1];
+            println!("{steps} steps, forces {sums:?} ({force}), approach {down:.6} ({approach:.6})");
+            for (body, forces) in scene.elastic.iter().zip(&forces) {
+                let found = half_width_of(&body.surface.x, forces);
+                println!("half width {found:.5} ({half_width})");
+                assert!((found / half_width - 1.0).abs() <= HERTZ);
+            }
+            assert!((down / approach - 1.0).abs() <= HERTZ);
+        }
     }
 }

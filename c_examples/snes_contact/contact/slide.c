@@ -60,8 +60,11 @@ PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t
   *slid = 0;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     Interface *interface = &contact->interfaces[i];
-    if (turned_offsets(interface)) PetscCall(measure_turn(interface, contact->mesh));
-    if (turned_offsets(interface) || interface->options.weights == STICKSLIP_WEIGHTS_CURRENT) continue;
+    if (turned_offsets(interface)) {
+      PetscCall(measure_turn(interface, contact->mesh));
+      continue;
+    }
+    if (interface->options.weights == STICKSLIP_WEIGHTS_CURRENT) continue;
     PetscCall(measure_slide(interface, contact->mesh));
     if (interface->options.weights == STICKSLIP_WEIGHTS_REFERENCE) {
       PetscCall(measure_turn(interface, contact->mesh));
@@ -94,11 +97,13 @@ PetscErrorCode slide_accept(Contact *contact)
   PetscFunctionBegin;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     Interface *interface = &contact->interfaces[i];
-    if (turned_offsets(interface))
+    if (turned_offsets(interface)) {
       PetscCall(tell(contact->physics->t, &interface->turn,
                      "Offsets of tied surfaces act along the normals that the surfaces had at first, and do not turn with the bodies.",
                      "Mesh the interference or the gap, or take", "turn_max"));
-    if (turned_offsets(interface) || interface->options.weights != STICKSLIP_WEIGHTS_REFERENCE) continue;
+      continue;
+    }
+    if (interface->options.weights != STICKSLIP_WEIGHTS_REFERENCE) continue;
     PetscCall(tell(contact->physics->t, &interface->slide,
                    "Weights of the reference know no sliding: contact is sought, and forces act on the mortar side, where the surfaces "
                    "were at first.",

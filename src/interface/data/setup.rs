@@ -5,6 +5,7 @@ use super::effects::Effects;
 use super::frame::check_frame;
 use super::node_data::NodeData;
 use super::numbering;
+use super::offsets;
 use super::options::{Form, MortarSide, MultiplierBasis, Options, Scheme, Tangent, Weights};
 use super::parents::Parents;
 use super::surface::{NO_EQUATION, Surface, frames};
@@ -102,6 +103,14 @@ impl<const N: usize> Setup<N> {
     #[inline]
     pub fn has_point_friction(&self) -> bool {
         N == 3 && self.options.decides_at_points()
+    }
+
+    /// Whether anything acts along the normals of the first configuration however far surfaces turn: the pressure with weights of the
+    /// reference, and offsets of tied surfaces.
+    pub fn acts_along_first_normals(&self) -> bool {
+        let options = &self.options;
+        options.effective_weights() == Weights::Reference
+            && (options.friction.law().opens || offsets::are_there(self.surfaces()))
     }
 
     /// Whether the frame of an analytic surface has equations.

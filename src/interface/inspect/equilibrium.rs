@@ -14,7 +14,6 @@
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::interface::data::extent::Scope;
-use crate::interface::data::offsets;
 use crate::interface::data::options::Weights;
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::carried::{carriers_sums, multiplier_share};
@@ -104,10 +103,7 @@ pub fn equilibrium<const N: usize>(
     let none = Largest { value: 0.0, scale: length_scale(least(&|a| given.size(a))), node: None };
     let options = &given.setup.options;
     let may_slide = options.friction.law().opens && options.weights != Weights::Current;
-    let may_turn = match options.friction.law().opens {
-        true => options.weights == Weights::Reference,
-        false => offsets::are_there(given.setup.surfaces()),
-    };
+    let may_turn = given.setup.acts_along_first_normals();
     if may_turn {
         given.setup.nonmortar.add_normals(x1, turned)?;
     }
