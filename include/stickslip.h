@@ -656,7 +656,9 @@ typedef struct stickslip_options {
   /// How far a surface may turn from one commit to the next, in radians [-], where the normals are those of t_n. A commit
   /// refuses more with TURNED_TOO_FAR. With NORMALS_CURRENT only where slip is not measured by SLIP_OBJECTIVE, and at nodes on
   /// a knife's edge, which keep nu(t_n). Each side counts alone, in space; with WEIGHTS_REFERENCE the non-mortar side's
-  /// turn since the first configuration, as of tied surfaces with offsets; other tied ones may turn as they like. At most pi, which refuses nothing;
+  /// turn since the first configuration, as of tied surfaces with offsets; other tied ones may turn as they like. With friction,
+  /// whatever the normals, the sides may spin no further against each other about their normal, for slip is the chord of the way:
+  /// the moment of friction is cos(spin / 2) of what it must be. At most pi, which refuses nothing;
   /// 0 (default): pi / 9, 20 degrees. What a turn below it costs: docs/plug_in.md.
   double turn_max;
   /// With STICKSLIP_FRICTION_TRESCA the largest shear traction, > 0 [F/L^2]; else 0 (default).
@@ -1758,8 +1760,8 @@ int32_t stickslip_interface_condensed_residual(struct stickslip_interface *inter
 /// A piece of the matrix of a system without multipliers as triplets in displacement equations. With K the host's own matrix,
 /// T the piece FORCES, E the piece ELIMINATION and G the piece CONSTRAINTS, and J = K + T, the matrix is J + E J + G. Its step is
 /// that of the system with multipliers from these multipliers. With the piece SCALES added it is the exact derivative of the
-/// residual whose multipliers follow from the displacements: without it Newton's method may cycle where surfaces slip
-/// with weights of now. Not symmetric.
+/// residual whose multipliers follow from the displacements, but for what docs/formulation.md 11.2 leaves out with NORMALS_CURRENT
+/// and one multiplier a node: without it Newton's method may cycle where surfaces slip with weights of now. Not symmetric.
 ///
 /// x1 (3 n1), x2 (3 n2): positions [L]; lambda (n1 multipliers) [F/L^2], as for the residual; piece: STICKSLIP_CONDENSED_...
 /// Outputs: rows, columns, values (capacity each), count; duplicates add up; entries without an equation are left out. With
@@ -1856,7 +1858,7 @@ int32_t stickslip_interface_step_limit(struct stickslip_interface *interface,
 /// Inputs x1, x2, lambda, sums as for `stickslip_interface_states`.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (a
-/// mortar surface in layers, an analytic surface's frame), TURNED_TOO_FAR (by more than options.turn_max since the last commit),
+/// mortar surface in layers, an analytic surface's frame), TURNED_TOO_FAR (by more than options.turn_max since the last commit; with friction against each other, too),
 /// CONTACT_LOST (a closed node would lose a pair that is deeper than one may be, or all that covers it); then nothing
 /// has moved.
 /// Cost: as `stickslip_interface_states`, then O(n1 + n2) for what the next step needs. Of facets between which there can be

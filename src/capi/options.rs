@@ -210,7 +210,9 @@ pub struct stickslip_options {
     /// How far a surface may turn from one commit to the next, in radians [-], where the normals are those of t_n. A commit
     /// refuses more with TURNED_TOO_FAR. With NORMALS_CURRENT only where slip is not measured by SLIP_OBJECTIVE, and at nodes on
     /// a knife's edge, which keep nu(t_n). Each side counts alone, in space; with WEIGHTS_REFERENCE the non-mortar side's
-    /// turn since the first configuration, as of tied surfaces with offsets; other tied ones may turn as they like. At most pi, which refuses nothing;
+    /// turn since the first configuration, as of tied surfaces with offsets; other tied ones may turn as they like. With friction,
+    /// whatever the normals, the sides may spin no further against each other about their normal, for slip is the chord of the way:
+    /// the moment of friction is cos(spin / 2) of what it must be. At most pi, which refuses nothing;
     /// 0 (default): pi / 9, 20 degrees. What a turn below it costs: docs/plug_in.md.
     pub turn_max: f64,
     /// With STICKSLIP_FRICTION_TRESCA the largest shear traction, > 0 [F/L^2]; else 0 (default).

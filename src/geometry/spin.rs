@@ -17,6 +17,7 @@ pub struct Spin {
 impl Spin {
     /// That of nodes which were at `before`, on a facet with the unit normal e, and are at `now`, on one with e'. None where the normals
     /// are opposite or the nodes are at one place.
+    #[inline(never)] // tractions of points and the limit of a step ask for it
     pub fn of(before: &[Vec3], e: Vec3, now: &[Vec3], normal: Vec3) -> Spin {
         let none = Spin { normal, cosine: 1.0, sine: 0.0 };
         let (axis, c) = (e.cross(&normal), e.dot(&normal));
@@ -35,6 +36,11 @@ impl Spin {
         }
         let length = cosine.hypot(sine);
         if length > 0.0 { Spin { normal, cosine: cosine / length, sine: sine / length } } else { none }
+    }
+
+    /// By how much, without its sign [rad].
+    pub fn angle(&self) -> f64 {
+        self.sine.abs().atan2(self.cosine)
     }
 
     /// A vector in the plane of the new normal, turned.

@@ -20,6 +20,7 @@ use super::pairing::settle::Pairing;
 use super::stages::commit::{self, Known, Settled};
 use super::stages::lost::refuse_lost_contact;
 use super::stages::residual::Residual;
+use super::stages::spin::refuse_spin;
 use super::stages::sums::NodeSums;
 use super::stages::turn::refuse_turn;
 use crate::error::{Error, Kind, Result, Text};
@@ -366,6 +367,8 @@ impl<const N: usize> Contact<N> {
         self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
         let given = Given { setup: &self.setup, step: &self.step };
         refuse_turn(given, (x1, x2), shared, &mut self.cache.work.room.vectors)?;
+        let answers = self.cache.answers();
+        refuse_spin(given, x1, (&answers.sums, &answers.responses.nodes))?;
         let (surfaces, options, history) = (self.setup.surfaces(), &self.setup.options, &self.step.history);
         let moved = self.spare.take().unwrap_or_else(History::empty);
         let (is_known, active, work, answers) = self.cache.leave();

@@ -9,7 +9,6 @@ A missing file or an unexpected exit code raises SceneError: no check may pass b
 
 import json
 import math
-import os
 import re
 import resource
 import shutil
@@ -20,6 +19,7 @@ from pathlib import Path
 
 import numpy as np
 import pieces
+from mpi import environment
 
 SCENES = Path(__file__).resolve().parents[2] / "c_examples" / "scenes"
 
@@ -208,15 +208,11 @@ class Driver:
         if directory.exists():
             shutil.rmtree(directory)  # an old result must never be read as a new one
         directory.mkdir(parents=True)
-        # One thread each: the problems are small, and threads of the BLAS only wait for each other.
-        # The first two OMPI variables let Open MPI run in containers, where one usually is root; the third spares a program
-        # of one rank the start of a daemon, which takes a tenth of a second.
-        environment = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-                       "OMPI_MCA_ess_singleton_isolated": "1"}
         start, cpu = time.monotonic(), _cpu_of_children()
         done = subprocess.run(
             command,
-            env={**os.environ, **environment},
+            # Spares a program of one rank the start of a daemon, which takes a tenth of a second
+            env=environment(OMPI_MCA_ess_singleton_isolated="1"),
             stdin=subprocess.DEVNULL,
             capture_output=True,
             text=True,

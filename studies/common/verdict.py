@@ -2,6 +2,7 @@
 
 import json
 import math
+import time
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -23,8 +24,10 @@ class Row:
 
 
 class Verdicts:
-    def __init__(self):
-        self.rows = []
+    """`progress`: where each comparison is told at once, with the seconds since the first, as long groups take minutes; None: nowhere."""
+
+    def __init__(self, progress=None):
+        self.rows, self.progress, self.start = [], progress, time.monotonic()
 
     def near(self, quantity, computed, reference, bound, reason, scale=None):
         """|computed - reference| relative to `scale` (default: the reference) must not exceed `bound`."""
@@ -58,6 +61,9 @@ class Verdicts:
 
     def _add(self, row):
         self.rows.append(row)
+        if self.progress:
+            seconds, verdict = time.monotonic() - self.start, "ok" if row.passed else "FAILED"
+            print(f"[{seconds:5.0f} s] {verdict:<6} {row.quantity}", file=self.progress, flush=True)
 
     @property
     def passed(self):

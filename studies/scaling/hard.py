@@ -4,13 +4,13 @@ of a run, with dual multipliers, condensed, `solver: iterative`. Table: printed,
 
 import argparse
 import json
-import os
 import subprocess
 import sys
 from pathlib import Path
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
 import folders  # noqa: E402, F401  (puts the others on the path)
+from mpi import environment  # noqa: E402
 from scaling import renew  # noqa: E402
 from scene import SCENES, SceneError, interfaces  # noqa: E402
 
@@ -44,7 +44,7 @@ def measure(build, output, label, scene, options):
     folder.mkdir(parents=True, exist_ok=True)
     with open(folder / "run.txt", "w") as text:
         status = subprocess.call([str(word) for word in command], stdout=text, stderr=subprocess.STDOUT,
-                                 env={**os.environ, "OMP_NUM_THREADS": "1"})
+                                 env=environment())
     if status:
         raise SceneError(f"{label}: see {text.name}")
     summary = json.loads((folder / "summary.json").read_text())

@@ -11,7 +11,6 @@ converted once and then read by all ranks: bytes.json, bytes.md.
 
 import argparse
 import json
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -19,6 +18,7 @@ from pathlib import Path
 sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
 import folders  # noqa: E402, F401  (puts the others on the path)
 import numpy as np  # noqa: E402
+from mpi import environment  # noqa: E402
 from scaling import renew  # noqa: E402
 from scene import SceneError, write  # noqa: E402
 
@@ -99,9 +99,8 @@ def program(build):
 
 
 def call(command, log):
-    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
     with open(log, "w") as text:
-        done = subprocess.run([str(word) for word in command], stdout=text, stderr=subprocess.STDOUT, env=environment)
+        done = subprocess.run([str(word) for word in command], stdout=text, stderr=subprocess.STDOUT, env=environment())
     if done.returncode:
         raise SceneError(f"{log.stem}: see {log}")
 

@@ -19,6 +19,7 @@ from pathlib import Path
 sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
 import folders  # noqa: E402, F401  (puts the others on the path)
 from documents import put_between  # noqa: E402
+from mpi import environment  # noqa: E402
 from scene import SCENES, SceneError  # noqa: E402
 
 DOC = Path(__file__).resolve().parents[2] / "docs" / "scaling.md"
@@ -45,7 +46,7 @@ def launch(build, output, n, solver, options, name=None, expect=0):
                *cells, "-solver", solver]
     with open(log, "w") as text:
         process = subprocess.Popen([str(word) for word in command], stdout=text, stderr=subprocess.STDOUT,
-                                   env={**os.environ, "OMP_NUM_THREADS": "1"})
+                                   env=environment())
         _, status, usage = os.wait4(process.pid, 0)
     if os.waitstatus_to_exitcode(status) != expect:
         raise SceneError(f"{solver} with {n} cells: see {log}")
@@ -80,10 +81,8 @@ def holdings(build, output):
         command = ["mpirun", "--oversubscribe", "-n", ranks, build / "c_examples" / "snes_contact", "-scene", SCENES / "two_blocks.yaml",
                    "-output_dir", folder, *OPTIONS, "-upper_cells", f"{n},{n},{n}", "-lower_cells", f"{n + 1},{n + 1},{n}",
                    "-solver", "iterative", "-output_vtu", "none", "-output_csv", "none"]
-        allowed = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1"}
         with open(output / f"ranks_{ranks}.txt", "w") as text:
-            status = subprocess.call([str(word) for word in command], stdout=text, stderr=subprocess.STDOUT,
-                                     env={**os.environ, **allowed})
+            status = subprocess.call([str(word) for word in command], stdout=text, stderr=subprocess.STDOUT, env=environment())
         if status:
             raise SceneError(f"{ranks} ranks: see {text.name}")
         mesh = json.loads((folder / "summary.json").read_text())["mesh"]

@@ -1,7 +1,8 @@
 """Acceptance checks on the example scenes: check.py --build DIR GROUP...
 
-Prints one line per check with the measured figure and its bound, writes them to DIR/acceptance/GROUP.json, and exits
-with 1 if anything failed. A scene that does not run, or does not write what it should, is a failure too.
+Prints one line per check with the measured figure and its bound, on a terminal each also at once (--progress: always),
+writes them to DIR/acceptance/GROUP.json, and exits with 1 if anything failed. A scene that does not run, or does not write
+what it should, is a failure too.
 """
 
 import argparse
@@ -113,11 +114,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=Path, required=True, help="CMake's build tree")
     parser.add_argument("groups", nargs="+", choices=GROUPS, metavar="GROUP", help=", ".join(GROUPS))
+    parser.add_argument("--progress", action="store_true", help="tell each check at once, on stderr; so it is on a terminal")
     arguments = parser.parse_args()
+    progress = sys.stderr if arguments.progress or sys.stderr.isatty() else None
 
     passed = True
     for name in arguments.groups:
-        output, verdicts = arguments.build / "acceptance", Verdicts()
+        output, verdicts = arguments.build / "acceptance", Verdicts(progress)
         try:
             GROUPS[name](verdicts, Driver(arguments.build, output / name))
         except (SceneError, KeyError, ValueError, OSError) as problem:

@@ -9,7 +9,6 @@ The other two have no multipliers among their unknowns, and a solver that does n
 driver with dual multipliers, and they tell their smallest pivot.
 """
 
-import os
 import re
 import subprocess
 from itertools import zip_longest
@@ -17,6 +16,7 @@ from itertools import zip_longest
 import numpy as np
 
 from acceptance import COLD
+from mpi import environment
 from scene import SceneError
 
 SCENE = "block_bottom_mu02"
@@ -101,7 +101,7 @@ def run_host(driver, name, weights, options):
     path.unlink(missing_ok=True)  # an old result must never be read as a new one
     done = subprocess.run(
         [str(program), *options, str(path)],
-        env={**os.environ, "OMP_NUM_THREADS": "1"},
+        env=environment(),
         stdin=subprocess.DEVNULL,
         capture_output=True,
         text=True,

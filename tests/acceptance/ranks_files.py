@@ -1,7 +1,6 @@
 """Checks of what several ranks read and write: the mesh is that of one rank to the bit, whoever made its pieces, and so are files
 put together; fields are those of one rank to rounding."""
 
-import os
 import re
 import shutil
 import struct
@@ -10,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 from condensed import TIGHT
+from mpi import environment
 from ranks import apart
 from scene import SCENES, SceneError, write
 
@@ -182,11 +182,10 @@ def pieces(verdicts, driver):
 def stale(verdicts, driver):
     """Of two runs into one folder, on other numbers of ranks, each step has the files of the second one alone. A folder that
     cannot take the summary is refused before anything is solved."""
-    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
     def run(folder, ranks):
         words = ["mpirun", "--oversubscribe", "-n", ranks, driver.program, "-scene", SCENES / "two_blocks.yaml", "-output_dir", folder, *LAST]
-        return subprocess.run([str(word) for word in words], capture_output=True, text=True, env=environment, stdin=subprocess.DEVNULL)
+        return subprocess.run([str(word) for word in words], capture_output=True, text=True, env=environment(), stdin=subprocess.DEVNULL)
 
     for first, second, left in ((2, 1, ".vtu"), (1, 2, ".pvtu")):
         folder = driver.output / f"stale_{first}"

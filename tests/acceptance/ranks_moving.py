@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 from condensed import TIGHT
+from mpi import environment
 from ranks import CONDENSED, QUIET, both, compare
 from scene import SceneError, write
 
@@ -142,8 +143,7 @@ def killed(verdicts, driver):
     for old in directory.glob("interface_*.csv"):
         old.unlink()
     command = ["mpirun", "--oversubscribe", "-n", "3", str(driver.program), "-scene", str(path), "-output_dir", str(directory), *QUIET]
-    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-    process = subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    process = subprocess.Popen(command, env=environment(), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     try:
         third = directory / "interface_contact_0003.csv"
         deadline = time.monotonic() + ENDS

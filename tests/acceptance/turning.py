@@ -7,6 +7,8 @@ one step, there while the hub turns and gone when it rests. What is left then is
 
 import numpy as np
 
+from scene import write
+
 ANGLE = 2.0  # of the scene
 FACET = 2 * np.pi * 5.05 / 24
 
@@ -18,6 +20,10 @@ REST_BOUND, SPLIT_BOUND = 1e-8, 0.5
 SLIP_BOUND = 1e-12
 # What the measure of slip as printed in the paper does at least, in 100 steps a turn: 2 % of a facet is measured.
 PAPER_DRIFT = 0.01
+# The moment of friction of a plate that spins: 0.8 % are the mesh's, 0.5 % the chord's in steps of 11 degrees.
+MOMENT_BOUND = 0.02
+# The mean distance from the middle of a square, over its side.
+MEAN_DISTANCE = (np.sqrt(2) + np.log(1 + np.sqrt(2))) / 6
 
 
 def turning(verdicts, driver):
@@ -41,6 +47,62 @@ def turning(verdicts, driver):
     ends = {n: drift(run, 1, len(run.steps)) for n, run in paper.items()}  # it drifts while nothing turns, too
     verdicts.at_least("slip as printed in the paper, 100 steps: drift", ends[100], PAPER_DRIFT, "it does drift")
     verdicts.at_least("slip as printed in the paper: drift, 100 steps over 50", ends[100] / ends[50], 1.2, "and grows")
+    spinning(verdicts, driver)
+    let_go(verdicts, driver)
+
+
+def spinning(verdicts, driver):
+    """A rigid plate is pressed on a layer and spins on it by 3.1 rad in one step, where slip is a chord of next to nothing: the step is cut
+    until the moment is that of friction."""
+    side, force, friction = 1.0, 20.0, 0.2
+    scene = {
+        "schema": 1,
+        "bodies": ["top", "layer"],
+        "top": {"type": "rigid", "from": "box", "lower": [-0.231, -0.217, 0.5], "upper": [1.2, 1.2, 0.8], "cells": [2, 3, 1],
+                "reference": [0.5, 0.5, 0.9]},
+        "layer": {"type": "box", "young": 1e5, "poisson": 0.3, "small_strain": True, "lower": [0, 0, 0], "upper": [side, side, 0.5],
+                  "cells": [4, 4, 2]},
+        "supports": ["base", "spin"],
+        "base": {"surface": "layer.zmin", "components": ["x", "y", "z"]},
+        "spin": {"body": "top", "components": ["x", "y", "rx", "ry", "rz"], "rotate": [0, 0, 3.1], "curve": [1, 0, 2, 1]},
+        "loads": ["press"],
+        "press": {"body": "top", "force": [0, 0, -force], "curve": [0, 0, 1, 1]},
+        "interfaces": ["contact"],
+        "contact": {"nonmortar": "layer.zmax", "mortar": "top.zmin", "basis": "dual", "friction": friction},
+        "steps": {"stages": [1, 1, 2, 1]},
+        "output": {"vtu": "none", "quiet": True},
+    }
+    run = driver.run(write(scene, driver.output / "spinning.yaml"), label="spinning")
+    verdicts.at_least("a spin by 3.1 rad in one step: cut-backs", run.summary["cutbacks"], 1, "slip is a chord")
+    moment = run.steps[-1]["rigid"]["top"]["contact_moment"][2]
+    verdicts.near("the moment of friction at its end", abs(moment), friction * force * MEAN_DISTANCE * side, MOMENT_BOUND, "mu N r")
+
+
+def let_go(verdicts, driver):
+    """A rigid plate on two bodies, whose force and moment fall at last: the moment is below what friction holds, and the plate stays. In one
+    step it ended 1.8 rad away, where friction along the chord of that way gives the same moment."""
+    scene = {
+        "schema": 1,
+        "bodies": ["upper", "lower", "plate"],
+        "upper": {"type": "box", "young": 1000, "poisson": 0.3, "material": "neo_hooke", "lower": [0.03, 0.02, 0], "upper": [1, 0.8, 0.5],
+                  "cells": [3, 3, 2]},
+        "lower": {"type": "box", "young": 3000, "poisson": 0.3, "material": "neo_hooke", "lower": [-0.5, -0.53, -1], "upper": [1.5, 1.5, 0],
+                  "cells": [5, 6, 2]},
+        "plate": {"type": "rigid", "from": "box", "lower": [-0.13, -0.17, 0.5], "upper": [1.1, 1.0, 0.7], "cells": [2, 3, 1],
+                  "reference": [0.5, 0.4, 0.6]},
+        "supports": ["base"],
+        "base": {"surface": "lower.zmin", "components": ["x", "y", "z"]},
+        "loads": ["press"],
+        "press": {"body": "plate", "force": [0, 0, -10], "moment": [0, 0, 0.792], "curve": [0, 0, 1, 1, 2, -0.5]},
+        "interfaces": ["below", "above"],
+        "below": {"nonmortar": "upper.zmin", "mortar": "lower.zmax", "friction": 0.8},
+        "above": {"nonmortar": "upper.zmax", "mortar": "plate.zmin", "law": "tresca", "friction": 0.4, "shear_limit": 4.102564102564102},
+        "steps": {"times": [0.5, 1, 1.5, 1.625]},
+        "output": {"vtu": "none", "quiet": True},
+    }
+    run = driver.run(write(scene, driver.output / "let_go.yaml"), label="let_go")
+    most = max(abs(step["rigid"]["plate"]["rotation"][2]) for step in run.steps)
+    verdicts.below("a plate whose moment falls below friction's: its largest turn", most, 0.02, "0.015, under the whole load")
 
 
 def steps(n):

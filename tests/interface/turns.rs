@@ -7,8 +7,11 @@ use crate::support::press::{Failure, Place, Press};
 use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
 use stickslip::error::Kind;
 use stickslip::geometry::{AnalyticShape, Vec3};
-use stickslip::interface::{Contact, Friction, NO_EQUATION, Normals, Options, Stiffness, Surface, TURN_MAX, Weights};
-use stickslip::law::State;
+use stickslip::interface::{
+    Contact, Decision, Friction, Interface, MultiplierBasis, NO_EQUATION, Normals, Options, Stiffness, Surface,
+    TURN_MAX, Weights,
+};
+use stickslip::law::{SlipMeasure, State};
 
 /// Against many small steps, of the largest pressure: without friction a step at rest forgets the path but for areas of
 /// t_n; where all stick it is exact but for the path's own rounding.
@@ -299,5 +302,52 @@ fn what_asks_for_no_normals_may_turn() {
     assert!(error.message.ends_with("take smaller steps"), "{}", error.message);
     for turn_max in [0.0, -0.1, 3.2, f64::NAN] {
         assert_eq!(Options { turn_max, ..base }.validate().unwrap_err().kind, Kind::InvalidValue);
+    }
+}
+
+/// A plate that spins on another about their normal, with and without friction: the moment of friction of one step is cos(theta / 2) of
+/// what it must be, so that a step with more than the limit is refused, with every kind of weights and of decision, and nothing has moved.
+#[test]
+fn friction_refuses_a_spin_beyond_the_limit() {
+    let dual = Options { basis: MultiplierBasis::Dual, ..Options::new(Stiffness::Modulus(100.0)) };
+    let base = Options { mu: 0.3, ..Options::new(Stiffness::Modulus(100.0)) };
+    let points = Options { decision: Decision::Points(100.0), weights: Weights::Committed, mu: 0.3, ..dual };
+    let all = [
+        base,
+        Options { mu: 0.3, ..dual },
+        Options { normals: Normals::Current, ..base },
+        Options { weights: Weights::Committed, ..base },
+        Options { slip: SlipMeasure::Increment, ..base },
+        points,
+        Options { mu: 0.0, ..base },
+        Options { friction: Friction::Tied, ..Options::new(Stiffness::Modulus(100.0)) },
+    ];
+    for (k, options) in all.into_iter().enumerate() {
+        for degrees in [5.0, 19.0, 21.0, 60.0, 120.0, 179.0] {
+            let upper = grid(3, 3, [-0.5, -0.5], [0.5, 0.5], 0.0, false, Cells::Quads);
+            let lower = grid(2, 2, [-0.9, -0.9], [0.9, 0.9], 0.0, true, Cells::Quads);
+            let (n1, n2) = (upper.x.len(), lower.x.len());
+            let one = Surface::new("nonmortar", upper.x.clone(), &upper.facets, numbered(0, n1)).unwrap();
+            let two = Surface::new("mortar", lower.x.clone(), &lower.facets, numbered(3 * n1, n2)).unwrap();
+            let mut contact: Interface = Contact::new(one, two, numbered(3 * (n1 + n2), n1), options).unwrap();
+            let lambda = vec![-Vec3::z(); n1];
+            contact.commit(&upper.x, &lower.x, &lambda, None).unwrap();
+            let spin = Rotation3::from_axis_angle(&Vec3::z_axis(), f64::to_radians(degrees));
+            let x1: Vec<Vec3> = upper.x.iter().map(|x| spin * x).collect();
+            let before = contact.history().clone();
+            let is_refused = k < 6 && degrees > 20.0;
+            match contact.commit(&x1, &lower.x, &lambda, None) {
+                Ok(()) => assert!(!is_refused, "{k}: {degrees} degrees are accepted"),
+                Err(error) => {
+                    assert!(is_refused && error.kind == Kind::TurnedTooFar, "{k}, {degrees} degrees: {error}");
+                    assert!(error.message.contains("about its normal and against the mortar side"), "{error}");
+                    assert!(error.message.contains(&format!("{degrees:.1} degrees")), "{k}, {degrees}: {error}");
+                    assert!(*contact.history() == before);
+                }
+            }
+            // Both together may turn as they like.
+            let x2: Vec<Vec3> = lower.x.iter().map(|x| spin * x).collect();
+            contact.commit(&x1, &x2, &lambda, None).unwrap_or_else(|error| panic!("{k}, {degrees} degrees: {error}"));
+        }
     }
 }

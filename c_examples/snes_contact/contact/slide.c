@@ -52,6 +52,12 @@ static PetscErrorCode measure_turn(Interface *interface, const Mesh *mesh)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Such weights are frozen. */
+static PetscBool decides_at_points_with_friction(const Interface *interface)
+{
+  return (PetscBool)(interface->options.decision == STICKSLIP_DECISION_POINTS && interface->options.friction != STICKSLIP_FRICTION_NONE);
+}
+
 /* At a converged state: how far weights of the last step have slid, over what is allowed. `why`, where that is too far: the step does
  * not count. */
 PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t length)
@@ -74,8 +80,9 @@ PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t
     if (interface->slide.amount <= interface->slide.most) continue;
     PetscCall(PetscSNPrintf(why, length,
                             "converged, but %s, where weights of the last step are good for %g times: take shorter steps, "
-                            "`weights: current`, or a larger `slide_max`",
-                            interface->slide.words, (double)interface->slide.most));
+                            "%sor a larger `slide_max`",
+                            interface->slide.words, (double)interface->slide.most,
+                            decides_at_points_with_friction(interface) ? "" : "`weights: current`, "));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -10,6 +10,8 @@
 static const PetscReal DRIFT = 1e-2;
 /* How many roundings meet in the sum of all nodal forces on a body. */
 static const PetscReal ROUNDINGS = 8;
+/* Over the largest stiffness: what is smaller is the rounding of a motion that no spring holds. */
+static const PetscReal UNHELD = 1e3 * PETSC_MACHINE_EPSILON;
 /* A part takes part in a motion that has more than this of it, which is of size 1 over all parts. */
 static const PetscReal TAKES_PART = 1e-3;
 
@@ -226,6 +228,7 @@ PetscErrorCode held_describe_springs(const Solve *solve, PetscReal rtol, char te
   for (PetscInt k = 0; k < all.n; k++) {
     const PetscReal *row      = all.rows + m.n * k;
     PetscReal        rounding = 0;
+    if (!(all.values[k] > UNHELD * all.values[all.n - 1])) continue;
     for (PetscInt p = 0; p < physics->parts.n; p++)
       rounding = PetscMax(rounding, share(&m, row, p) * PETSC_MACHINE_EPSILON * physics->parts.part[p].young * m.size[p] / all.values[k]);
     if (!(rounding > rtol)) continue;

@@ -146,8 +146,8 @@ static PetscErrorCode explain(Solve *solve, SNESConvergedReason reason)
                             newton->stopped ? "" : "; at last: ", newton->stopped ? "" : in_words(reason, linear)));
   } else if (contact->settling.unsettled[0] && reason != SNES_DIVERGED_LINEAR_SOLVE) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why),
-                            "the forces balance, but the contact is not in equilibrium (%s); where augmentation_scale is "
-                            "small, raise it; where the node is hardly covered, give weak_coverage: 0.5",
+                            "the forces balance, but the contact is not in equilibrium (%s); where augmentation_scale (with "
+                            "decision: points, modulus) is small, raise it; where the node is hardly covered, give weak_coverage: 0.5",
                             contact->settling.unsettled));
   } else {
     json = cJSON_CreateObject();

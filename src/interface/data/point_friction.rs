@@ -7,6 +7,7 @@ use crate::line::{self, LineFacet, Measure};
 use crate::memory::Store;
 use crate::mortar::{NonmortarFrame, OverlapPoint, Segment, each_point};
 use crate::quadrature::Rule;
+use crate::shape::MAX_CORNERS;
 
 /// Reals that a point remembers: a vector.
 pub const REALS_PER_POINT: usize = 3;
@@ -37,9 +38,10 @@ pub struct PointFriction {
     pub nodes: Vec<FrictionNode>,
     /// Of every point.
     pub answers: Vec<Projected>,
-    /// What friction takes in the step over an area of 1, of every point [F/L].
-    pub work: Vec<f64>,
-    /// The same with each node's share of the points [F L].
+    /// Per facet int N_A t of its nodes, and per pair int N_C t of the mortar facet's [F].
+    pub forces: Vec<[Vec3; MAX_CORNERS]>,
+    pub opposite: Vec<[Vec3; MAX_CORNERS]>,
+    /// What friction takes in the step, with each node's share of the points [F L].
     pub dissipation: Vec<f64>,
     /// Per node how much of what is covered of it slips.
     pub shares: Vec<f64>,
@@ -80,7 +82,7 @@ impl PointFriction {
             + self.ends.capacity() * size_of::<usize>()
             + self.nodes.capacity() * size_of::<FrictionNode>()
             + self.answers.capacity() * size_of::<Projected>()
-            + (self.shares.capacity() + self.states.capacity() + self.work.capacity() + self.dissipation.capacity())
-                * size_of::<f64>()
+            + (self.forces.capacity() + self.opposite.capacity()) * size_of::<[Vec3; MAX_CORNERS]>()
+            + (self.shares.capacity() + self.states.capacity() + self.dissipation.capacity()) * size_of::<f64>()
     }
 }

@@ -6,7 +6,7 @@ use super::sides::Place;
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::active::Active;
-use crate::interface::data::surface::{NO_EQUATION, node_equations};
+use crate::interface::data::surface::{NO_EQUATION, Surface, node_equations};
 use crate::interface::stages::carried::transfer;
 use crate::interface::stages::sums::in_previous_gaps;
 use crate::interface::tangent::augmented::dtraction;
@@ -14,7 +14,7 @@ use crate::interface::tangent::by_equations::Sink;
 use crate::law::{HeatFlow, HeatNode};
 use crate::memory::{self, Store};
 use crate::mortar::GapDerivative;
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SMatrix;
 
 /// Where columns stand in the host's system.
 #[derive(Clone, Copy)]
@@ -40,20 +40,14 @@ struct ByPosition {
 }
 
 /// What one node's heat depends on, besides temperatures.
-#[derive(Debug)]
-struct Node<const N: usize> {
+#[derive(Debug, Default)]
+struct Node {
     positions: Vec<ByPosition>,
-    /// The multipliers of these nodes.
-    multipliers: Vec<(usize, [SVector<f64, N>; 2])>,
+    /// The multipliers of these nodes; of one that has one component the others are 0.
+    multipliers: Vec<(usize, [Vec3; 2])>,
 }
 
-impl<const N: usize> Default for Node<N> {
-    fn default() -> Self {
-        Node { positions: Vec::new(), multipliers: Vec::new() }
-    }
-}
-
-impl<const N: usize> Node<N> {
+impl Node {
     fn add(&mut self, node: usize, of: [Vec3; 2]) -> Result<()> {
         match self.positions.iter_mut().find(|known| known.node == node) {
             Some(known) => (0..2).for_each(|side| known.sides[side] += of[side]),
@@ -80,7 +74,7 @@ pub fn tangent<const N: usize>(
     equations: Equations,
     sink: &mut dyn Sink,
 ) -> Result<()> {
-    let (mut nodes, mut direct): (Vec<Node<N>>, Vec<Direct>) = (memory::defaults(rows.len())?, Vec::new());
+    let (mut nodes, mut direct): (Vec<Node>, Vec<Direct>) = (memory::defaults(rows.len())?, Vec::new());
     if equations.with_motion {
         let normals = at.given.normals()?;
         match active {
@@ -92,7 +86,10 @@ pub fn tangent<const N: usize>(
             nodes[a] = node(at, a, (rows, flows), &normals, (carried, &carries))?;
         }
     }
-    emit(at, (rows, flows), (&nodes, &direct), equations, sink)
+    let setup = at.given.setup;
+    let columns =
+        Columns { equations, surfaces: setup.surfaces(), multipliers: (setup.multiplier_equations.as_flattened(), N) };
+    emit((rows, flows), (&nodes, &direct), columns, sink)
 }
 
 /// Puts what the derivatives of the weights make of temperatures, areas and gaps into the rows; gives what they do to the heat
@@ -221,7 +218,7 @@ fn node<const N: usize>(
     (rows, flows): (&[Row], &[(HeatNode, HeatFlow)]),
     normals: &[Vec3],
     carrying: (&[bool], &[(usize, usize)]),
-) -> Result<Node<N>> {
+) -> Result<Node> {
     let (given, response, slopes, nu) = (at.given, &at.responses[a], &flows[a].1.slopes, normals[a]);
     let sides = |of: &dyn Fn(&[f64; 5]) -> Vec3| [of(&slopes[0]), of(&slopes[1])];
     let in_previous = in_previous_gaps(given);
@@ -254,27 +251,40 @@ fn node<const N: usize>(
         }
     }
     for (b, dp) in &traction.multipliers {
-        node.multipliers.store((*b, [0, 1].map(|side| dp.transpose() * by(&slopes[side]))))?;
+        let of = |side: usize| {
+            let by = dp.transpose() * by(&slopes[side]);
+            Vec3::from_fn(|i, _| if i < N { by[i] } else { 0.0 })
+        };
+        node.multipliers.store((*b, [of(0), of(1)]))?;
     }
     Ok(node)
 }
 
+/// The equations of columns.
+#[derive(Clone, Copy)]
+struct Columns<'a> {
+    equations: Equations<'a>,
+    surfaces: (&'a Surface, &'a Surface),
+    /// Those of all multipliers, and how many a node has.
+    multipliers: (&'a [i64], usize),
+}
+
 /// The sums of one row, column by column.
-struct RowSums<const N: usize> {
+struct RowSums {
     temperatures: Vec<f64>,
     positions: Vec<Vec3>,
-    multipliers: Vec<SVector<f64, N>>,
+    multipliers: Vec<Vec3>,
     /// Nodes with anything in the first two, and in the last.
     touched: [Vec<usize>; 2],
     is_touched: [Vec<bool>; 2],
 }
 
-impl<const N: usize> RowSums<N> {
-    fn new(n: usize, n1: usize) -> Result<RowSums<N>> {
+impl RowSums {
+    fn new(n: usize, n1: usize) -> Result<RowSums> {
         Ok(RowSums {
             temperatures: memory::filled(0.0, n)?,
             positions: memory::filled(Vec3::zeros(), n)?,
-            multipliers: memory::filled(SVector::zeros(), n1)?,
+            multipliers: memory::filled(Vec3::zeros(), n1)?,
             touched: [Vec::new(), Vec::new()],
             is_touched: [memory::filled(false, n)?, memory::filled(false, n1)?],
         })
@@ -288,20 +298,19 @@ impl<const N: usize> RowSums<N> {
     }
 
     /// Gives the sums away and begins anew.
-    fn give<const M: usize>(&mut self, at: &Place<M>, row: i64, equations: Equations, sink: &mut dyn Sink) {
+    fn give(&mut self, row: i64, Columns { equations, surfaces, multipliers: (all, n) }: Columns, sink: &mut dyn Sink) {
         for &node in &self.touched[0] {
             sink.add_block(&[row], &[equations.temperature(node)], &[self.temperatures[node]]);
             if equations.with_motion {
-                let columns = node_equations(at.given.setup.surfaces(), node);
+                let columns = node_equations(surfaces, node);
                 sink.add_block(&[row], columns, self.positions[node].as_slice());
             }
             (self.temperatures[node], self.positions[node]) = (0.0, Vec3::zeros());
             self.is_touched[0][node] = false;
         }
         for &node in &self.touched[1] {
-            let columns = &at.given.setup.multiplier_equations[node];
-            sink.add_block(&[row], columns, self.multipliers[node].as_slice());
-            self.multipliers[node] = SVector::zeros();
+            sink.add_block(&[row], &all[n * node..n * (node + 1)], &self.multipliers[node].as_slice()[..n]);
+            self.multipliers[node] = Vec3::zeros();
             self.is_touched[1][node] = false;
         }
         self.touched.iter_mut().for_each(Vec::clear);
@@ -309,14 +318,13 @@ impl<const N: usize> RowSums<N> {
 }
 
 /// Row by row, each entry once.
-fn emit<const N: usize>(
-    at: &Place<N>,
+fn emit(
     (rows, flows): (&[Row], &[(HeatNode, HeatFlow)]),
-    (nodes, direct): (&[Node<N>], &[Direct]),
-    equations: Equations,
+    (nodes, direct): (&[Node], &[Direct]),
+    columns: Columns,
     sink: &mut dyn Sink,
 ) -> Result<()> {
-    let (n1, n2) = (at.x[0].len(), at.x[1].len());
+    let (n1, n2) = (columns.surfaces.0.len(), columns.surfaces.1.len());
     // Where each node stands: (node, list, place).
     let (mut of_nodes, mut of_facets) = (Vec::new(), Vec::new());
     for (a, row) in rows.iter().enumerate().filter(|(a, _)| flows[*a].0.area > 0.0) {
@@ -327,10 +335,10 @@ fn emit<const N: usize>(
     }
     memory::sort(&mut of_nodes)?;
     memory::sort(&mut of_facets)?;
-    let mut sums = RowSums::<N>::new(n1 + n2, n1)?;
+    let mut sums = RowSums::new(n1 + n2, n1)?;
     let (mut next_node, mut next_facet) = (0, 0);
     for node in 0..n1 + n2 {
-        let (row, side) = (equations.temperature(node), usize::from(node >= n1));
+        let (row, side) = (columns.equations.temperature(node), usize::from(node >= n1));
         while let Some(&(_, a, k)) = of_nodes.get(next_node).filter(|of| of.0 == node) {
             next_node += 1;
             if row == NO_EQUATION {
@@ -358,7 +366,7 @@ fn emit<const N: usize>(
                 sums.positions[column] += slope;
             }
         }
-        sums.give(at, row, equations, sink);
+        sums.give(row, columns, sink);
     }
     Ok(())
 }

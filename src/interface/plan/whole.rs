@@ -36,7 +36,7 @@ impl Plan {
         is_diagonal: &dyn Fn(usize) -> bool,
     ) -> Result<Plan> {
         let nodes = Nodes::of(setup);
-        extras.sort_unstable();
+        memory::sort(&mut extras)?;
         extras.dedup();
         let (pairs, mut rest) = (FacetPairs::of(setup, pairs)?, &extras[..]);
         let mut finder = Finder::new(setup, system, numbering, &pairs)?;

@@ -21,5 +21,6 @@ pub mod points;
 pub mod points_now;
 pub mod residual;
 pub mod respond;
+pub mod spin;
 pub mod sums;
 pub mod turn;

@@ -14,15 +14,63 @@ use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::multiplier;
 use crate::interface::data::point_friction::{FrictionNode, REALS_PER_POINT};
-use crate::interface::data::points::Points;
+use crate::interface::data::points::{Closed, Points};
 use crate::interface::pairing::given::Given;
 use crate::law::{NodeResponse, Projected, State, Threshold, project_parts};
 use crate::memory::{self, Store};
+use crate::mortar::OverlapPoint;
+use crate::shape::MAX_CORNERS;
 use nalgebra::SVector;
 
 /// The part of v in the plane with this unit normal.
 pub(super) fn in_plane(v: Vec3, normal: Vec3) -> Vec3 {
     v - normal * normal.dot(&v)
+}
+
+/// What the field of a facet has at its nodes and at a point: sigma_N, P_e sigma_T, P_e lambda_T, mu, rhat.
+#[derive(Clone, Copy, Debug, Default)]
+struct Told {
+    normal: f64,
+    along: Vec3,
+    field: Vec3,
+    mu: f64,
+    rhat: f64,
+}
+
+impl Told {
+    #[inline]
+    fn add(&mut self, node: &Told, n: f64) {
+        self.normal += n * node.normal;
+        self.along += node.along * n;
+        self.field += node.field * n;
+        self.mu += n * node.mu;
+        self.rhat += n * node.rhat;
+    }
+}
+
+/// Of a facet's points, by its nodes: int N_A t, int N_A over what is closed and over what slips, and N_A times the work.
+#[derive(Default)]
+struct Shares {
+    force: [Vec3; MAX_CORNERS],
+    closed: [f64; MAX_CORNERS],
+    slips: [f64; MAX_CORNERS],
+    work: [f64; MAX_CORNERS],
+}
+
+impl Shares {
+    #[inline]
+    fn add(&mut self, answer: &Projected, point: &OverlapPoint, work: f64) {
+        if answer.state == State::Gap {
+            return;
+        }
+        for (k, n) in point.own.iter().enumerate() {
+            let share = point.weight * n;
+            self.force[k] += answer.traction * share;
+            self.closed[k] += share;
+            self.slips[k] += if answer.state == State::Slip { share } else { 0.0 };
+            self.work[k] += work * share;
+        }
+    }
 }
 
 impl Points {
@@ -55,38 +103,39 @@ impl Points {
         Ok(())
     }
 
-    /// The answers of the points of a facet.
-    fn ask<const N: usize>(&mut self, given: Given<N>, at: usize) -> Result<()> {
-        let (facet, states, mu) = (&self.facets[at], &given.history().states, &given.setup.nodes.mu);
+    /// The answers of the points of a facet, and its nodes' shares of them.
+    fn ask<const N: usize>(&mut self, given: Given<N>, at: usize) -> Result<Shares> {
+        let (facet, remembered, mu) = (&self.facets[at], &given.history().states, &given.setup.nodes.mu);
         let (nodes, e, rhat, friction) = (facet.nodes(), facet.normal, &self.rhat, &mut self.friction);
         let is_open = nodes.iter().all(|&a| friction.nodes[a].sigma.0 >= 0.0);
+        // What of the others is closed, their points say.
+        self.states.store(if is_open { Closed::Nothing } else { Closed::All })?;
+        let (mut told, mut all) = ([Told::default(); MAX_CORNERS], Shares::default());
+        for (told, &a) in told.iter_mut().zip(nodes) {
+            let node = &friction.nodes[a];
+            let (along, field) = (in_plane(node.sigma.1, e), in_plane(node.lambda.1, e));
+            *told = Told { normal: node.sigma.0, along, field, mu: mu[a], rhat: rhat[a] };
+        }
         for place in facet.places() {
+            let mut opposite = [Vec3::zeros(); MAX_CORNERS];
             for q in friction.of_pair(place) {
-                let point = &friction.points[q];
-                let (mut n, mut t, mut coefficient, mut field) = (0.0, Vec3::zeros(), 0.0, Vec3::zeros());
-                let mut stiffness = 0.0;
-                for (&a, own) in nodes.iter().zip(&point.own) {
-                    let node = &friction.nodes[a];
-                    n += own * node.sigma.0;
-                    t += node.sigma.1 * *own;
-                    coefficient += own * mu[a];
-                    field += node.lambda.1 * *own;
-                    stiffness += own * rhat[a];
-                }
-                let z = Vec3::from_fn(|i, _| states[REALS_PER_POINT * q + i]);
-                let trial = in_plane(t, e) + z;
+                let (point, mut here) = (&friction.points[q], Told::default());
+                told.iter().zip(&point.own).for_each(|(told, n)| here.add(told, *n));
+                let trial = here.along + Vec3::from_fn(|i, _| remembered[REALS_PER_POINT * q + i]);
                 let answer = match is_open {
                     true => Projected::gap(),
-                    false => project_parts(n, trial, e, Threshold::cone(coefficient, n)),
+                    false => project_parts(here.normal, trial, e, Threshold::cone(here.mu, here.normal)),
                 };
-                let left = answer.tangential - in_plane(field, e);
-                let cut = answer.tangential.dot(&(trial - answer.tangential));
-                friction.work.store(cut / stiffness)?;
+                all.add(&answer, point, answer.tangential.dot(&(trial - answer.tangential)) / here.rhat);
+                let force = answer.traction * point.weight;
+                opposite.iter_mut().zip(&point.other).for_each(|(sum, n)| *sum += force * *n);
                 friction.answers.store(answer)?;
-                friction.states.store_all(left.iter().copied())?;
+                friction.states.store_all((answer.tangential - here.field).iter().copied())?;
             }
+            friction.opposite.store(opposite)?;
         }
-        Ok(())
+        friction.forces.store(all.force)?;
+        Ok(all)
     }
 
     /// Stage 2: puts the answers of points in place of the law's at every covered node.
@@ -103,8 +152,10 @@ impl Points {
         memory::refill(&mut self.friction.shares, 0.0, lambda.len())?;
         memory::refill(&mut self.friction.dissipation, 0.0, lambda.len())?;
         self.friction.answers.clear();
-        self.friction.work.clear();
+        self.friction.forces.clear();
+        self.friction.opposite.clear();
         self.friction.states.clear();
+        self.states.clear();
         for (a, response) in responses.iter_mut().enumerate().filter(|(a, _)| self.is_covered[*a]) {
             let node = &self.friction.nodes[a];
             (response.state, response.traction, response.gap_normal) =
@@ -117,20 +168,11 @@ impl Points {
             response.sigma = node.normal * node.sigma.0 + node.sigma.1;
         }
         for at in 0..self.facets.len() {
-            self.ask(given, at)?;
+            let of = self.ask(given, at)?;
             let (facet, friction) = (&self.facets[at], &mut self.friction);
             for (k, &a) in facet.nodes().iter().enumerate().filter(|(_, a)| self.is_covered[**a]) {
                 let (node, rhat) = (friction.nodes[a], self.rhat[a]);
-                let (mut force, mut closed, mut slips) = (Vec3::zeros(), 0.0, 0.0);
-                let mut work = 0.0;
-                for q in facet.places().flat_map(|place| friction.of_pair(place)) {
-                    let (answer, share) = (&friction.answers[q], friction.points[q].weight * friction.points[q].own[k]);
-                    force += answer.traction * share;
-                    closed += if answer.state == State::Gap { 0.0 } else { share };
-                    slips += if answer.state == State::Slip { share } else { 0.0 };
-                    work += friction.work[q] * share;
-                }
-                let (mut normal, mut along) = (facet.normal.dot(&force), in_plane(force, facet.normal));
+                let (mut normal, mut along) = (facet.normal.dot(&of.force[k]), in_plane(of.force[k], facet.normal));
                 for (l, &b) in facet.nodes().iter().enumerate() {
                     let left = facet.mass[k][l] + self.factors[a] * facet.stabilisation[k][l];
                     normal -= left * friction.nodes[b].lambda.0;
@@ -138,10 +180,10 @@ impl Points {
                 }
                 let row = (node.normal * normal + node.along * along) / rhat;
                 responses[a].row += SVector::<f64, N>::from_fn(|i, _| row[i]);
-                responses[a].traction += force / sums[a].coverage;
-                self.shares[a] += closed / sums[a].coverage;
-                friction.shares[a] += slips / sums[a].coverage;
-                friction.dissipation[a] += work;
+                responses[a].traction += of.force[k] / sums[a].coverage;
+                self.shares[a] += of.closed[k] / sums[a].coverage;
+                friction.shares[a] += of.slips[k] / sums[a].coverage;
+                friction.dissipation[a] += of.work[k];
             }
         }
         for (a, response) in responses.iter_mut().enumerate().filter(|(a, _)| self.shares[*a] > 0.0) {
@@ -159,15 +201,11 @@ impl Points {
     ) -> Result<()> {
         let two = &given.setup.mortar;
         r.clear(given.setup.surfaces())?;
-        for facet in &self.facets {
+        for (facet, forces) in self.facets.iter().zip(&self.friction.forces) {
+            facet.nodes().iter().zip(forces).for_each(|(&a, force)| r.nonmortar[a] += force);
             for place in facet.places() {
-                let other = two.host_nodes(self.pairs[place].two);
-                for q in self.friction.of_pair(place) {
-                    let point = &self.friction.points[q];
-                    let t = self.friction.answers[q].traction * point.weight;
-                    facet.nodes().iter().zip(&point.own).for_each(|(&a, n)| r.nonmortar[a] += t * *n);
-                    other.iter().zip(&point.other).for_each(|(&c, n)| r.mortar[c] -= t * *n);
-                }
+                let other = two.host_nodes(self.pairs[place].two).iter().zip(&self.friction.opposite[place]);
+                other.for_each(|(&c, force)| r.mortar[c] -= force);
             }
         }
         r.take_rows(given, responses);

@@ -118,11 +118,16 @@ fn refuse_angle(options: &Options, angle: f64, what: impl Fn() -> Text) -> Resul
     } else {
         ("since the last commit", "take smaller steps")
     };
+    Err(too_far(options, what(), angle, (since, remedy)))
+}
+
+/// The refusal of a turn.
+#[inline(never)] // it is met three times
+pub(super) fn too_far(options: &Options, what: Text, angle: f64, (since, remedy): (&str, &str)) -> Error {
     let text = text!(
-        "{} has turned by {:.1} degrees {since}, more than the {:.1} that are allowed (options.turn_max): {remedy}",
-        what(),
+        "{what} has turned by {:.1} degrees {since}, more than the {:.1} that are allowed (options.turn_max): {remedy}",
         angle.to_degrees(),
         options.turn_max.to_degrees()
     );
-    Err(Error::new(Kind::TurnedTooFar, text))
+    Error::new(Kind::TurnedTooFar, text)
 }

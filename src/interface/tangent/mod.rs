@@ -1,5 +1,6 @@
 //! The tangent: which pairs it has, their derivatives, and how its blocks leave.
 
+pub mod around;
 pub mod augmented;
 pub mod blocks;
 pub mod by_equations;
@@ -20,6 +21,5 @@ pub mod point_numbers;
 pub mod points;
 pub mod row_sums;
 pub mod slopes;
-pub mod star;
 pub mod turning;
 pub mod union;

@@ -1,160 +1,190 @@
-//! The tangent with friction where points decide (docs/formulation.md 16.7), as without it (`points.rs`): sums over nodes A of products of
-//! what sigma_A acts on and of what it depends on. At a point dt = v N_A dsigma_NA + D N_A dsigma_TA, v = dt / dsigma_N and D what is left
-//! of the projection's derivative; dsigma_A = dlambda_A + (rhat_A / D_A) dg_A, taken apart by nu_A and T_A.
+//! The tangent with friction where points decide (docs/formulation.md 16.7), as without it (`points.rs`): rows of a node are sums over the
+//! nodes A of its facets, of d R / d sigma_A times what sigma_A depends on. At a point dt = H (nu_e N_A dsigma_NA + P_e N_A dsigma_TA), H the
+//! derivative of the projection; dsigma_A = dlambda_A + (rhat_A / D_A) dg_A, taken apart by nu_A and T_A.
 
-use super::emission::{Emitter, NodeBlock, Place};
-use super::points::PointNumbers;
-use super::star::{Around, Star};
+use super::around::Around;
+use super::emission::{Emitter, Place, RowBlock};
+use super::point_numbers::PointNumbers;
+use super::row_sums::{Acting, Gathered};
+use super::slopes::{Along, Slopes};
 use super::union::Pairs;
 use crate::error::Result;
-use crate::geometry::{Mat3, Vec3};
-use crate::interface::data::points::Points;
+use crate::geometry::Mat3;
+use crate::interface::data::point_friction::{FrictionNode, PointFriction};
+use crate::interface::data::points::{Closed, PointFacet};
 use crate::interface::pairing::given::Given;
-use crate::memory::{self, Store};
+use crate::memory::Store;
+use crate::mortar::OverlapPoint;
 use crate::shape::MAX_CORNERS;
+use std::ops::Range;
 
-/// By sigma_N and by sigma_T of one node.
+/// What a node has of one A.
 #[derive(Clone, Copy, Debug, Default)]
-struct Both {
-    normal: Vec3,
-    along: Mat3,
+struct Found {
+    /// d force / d sigma_A, before sigma_A is taken apart.
+    force: Mat3,
+    /// d (int N_B t, taken apart by nu_B and T_B) / d sigma_A, in the multiplier's row of node B.
+    row: Mat3,
+    /// What that row has of lambda_A at fixed sigma.
+    left: Mat3,
 }
 
-impl Both {
-    fn add(&mut self, other: &Both, by: f64) {
-        self.normal += other.normal * by;
-        self.along += other.along * by;
+/// By the nodes of a facet: int N_A N H.
+type OfFacet = [Mat3; MAX_CORNERS];
+
+/// Adds those of these points; N is what `of` gives for a node.
+fn add(sums: &mut OfFacet, (friction, points): (&PointFriction, Range<usize>), of: impl Fn(&OverlapPoint) -> f64) {
+    for (point, answer) in friction.points[points.clone()].iter().zip(&friction.answers[points]) {
+        let h = answer.derivative * (point.weight * of(point));
+        sums.iter_mut().zip(&point.own).for_each(|(sum, n)| *sum += h * *n);
     }
 }
 
-/// A node that sigma_A acts on and depends on.
-#[derive(Clone, Copy, Debug, Default)]
-struct Neighbour {
-    force: Both,
-    /// d sigma_A / dx, before it is taken apart.
-    slope: f64,
+/// d t / d sigma_A of the points of a facet whose H are summed up.
+fn of_sigma(sum: &Mat3, facet: &PointFacet, node: &FrictionNode) -> Mat3 {
+    let normal = sum * facet.normal;
+    normal * node.normal.transpose() + (sum - normal * facet.normal.transpose()) * node.along
 }
 
-/// A multiplier whose row sigma_A or lambda_A is in.
-#[derive(Clone, Copy, Debug, Default)]
-struct Row {
-    /// Of int N_B t_N, by sigma_NA.
-    normal: f64,
-    /// Of int N_B t_T.
-    along: Both,
-    left: f64,
+/// Rows in the making. What they are made of has no numbers where the pattern is asked for alone.
+struct Rows<'a, const N: usize> {
+    given: Given<'a, N>,
+    around: &'a Around,
+    numbers: Option<&'a PointNumbers<'a>>,
+    slopes: &'a Slopes,
+    row: Gathered<Found>,
+    acting: Vec<Acting>,
 }
 
-/// What depends on sigma_A of one node, and what it depends on.
-#[derive(Debug, Default)]
-struct OfNode {
-    star: Star,
-    /// Beside the star's.
-    neighbours: Vec<Neighbour>,
-    rows: Vec<Row>,
-    columns: Vec<(usize, Place)>,
-    blocks: Vec<NodeBlock>,
-}
-
-impl OfNode {
-    fn begin<const N: usize>(&mut self, given: Given<N>, a: usize, around: &Around) -> Result<()> {
-        self.star.begin(given, a, around)?;
-        memory::refill(&mut self.neighbours, Neighbour::default(), self.star.nodes.len())?;
-        memory::refill(&mut self.rows, Row::default(), self.star.rows.len())
-    }
-
-    /// Adds what a facet has of A.
-    fn add<const N: usize>(&mut self, given: Given<N>, a: usize, f: usize, points: &Points) {
-        let (one, two) = given.setup.surfaces();
-        let Ok(at) = points.facets.binary_search_by_key(&f, |facet| facet.one) else { return };
-        let (facet, friction) = (&points.facets[at], &points.friction);
-        let Some(l) = facet.nodes().iter().position(|&b| b == a) else { return };
-        let (is_covered, slope, moves) = (points.is_covered[a], friction.nodes[a].slope, given.setup.effects.moves());
-        for (k, &b) in facet.nodes().iter().enumerate().filter(|(_, b)| points.is_covered[**b]) {
-            if let Some(row) = self.star.row(b) {
-                self.rows[row].left += facet.mass[k][l] + points.factors[b] * facet.stabilisation[k][l];
-            }
+impl<const N: usize> Rows<'_, N> {
+    /// Adds what a non-mortar node has of the k-th facet.
+    fn own(&mut self, i: usize, k: usize, PointNumbers { points, .. }: &PointNumbers) -> Result<()> {
+        let Some(at) = self.around.at(k) else { return Ok(()) };
+        let (facet, friction, mut sums) = (&points.facets[at], &points.friction, OfFacet::default());
+        let Some(row) = facet.nodes().iter().position(|&b| b == i) else { return Ok(()) };
+        let (is_open, is_covered) = (points.states[at] == Closed::Nothing, points.is_covered[i]);
+        if !is_open {
+            // The points of a facet's pairs follow each other.
+            let all = friction.of_pair(facet.pairs[0]).start..friction.of_pair(facet.pairs[1] - 1).end;
+            add(&mut sums, (friction, all), |point| point.own[row]);
         }
-        if !is_covered {
-            return;
-        }
-        let mut own = [Both::default(); MAX_CORNERS];
-        for place in facet.places() {
-            let (pair, mut other) = (&points.pairs[place], [Both::default(); MAX_CORNERS]);
-            for q in friction.of_pair(place) {
-                let (point, h) = (&friction.points[q], &friction.answers[q].derivative);
-                let normal = h * facet.normal;
-                let acts = Both { normal, along: h - normal * facet.normal.transpose() };
-                let by = point.weight * point.own[l];
-                own.iter_mut().zip(&point.own).for_each(|(sum, n)| sum.add(&acts, by * n));
-                other.iter_mut().zip(&point.other).for_each(|(sum, n)| sum.add(&acts, by * n));
+        let own = &friction.nodes[i];
+        for (l, &a) in facet.nodes().iter().enumerate() {
+            if !self.given.setup.nonmortar.has_row(a) {
+                continue;
             }
-            for (k, &b) in facet.nodes().iter().enumerate() {
-                self.neighbours[self.star.place(b)].slope += slope * pair.dual.ab[l][k];
-            }
-            for (k, &c) in two.host_nodes(pair.two).iter().enumerate().filter(|_| moves) {
-                let neighbour = &mut self.neighbours[self.star.place(one.len() + c)];
-                neighbour.force.add(&other[k], -1.0);
-                neighbour.slope -= slope * pair.dual.ac[l][k];
-            }
-        }
-        for (k, &b) in facet.nodes().iter().enumerate() {
-            self.neighbours[self.star.place(b)].force.add(&own[k], 1.0);
-            if let Some(row) = self.star.row(b).filter(|_| points.is_covered[b]) {
-                let (row, normal) = (&mut self.rows[row], facet.normal.dot(&own[k].normal));
-                row.normal += normal;
-                row.along.add(&Both { normal: own[k].normal - facet.normal * normal, along: own[k].along }, 1.0);
-            }
-        }
-    }
-
-    fn emit<const N: usize>(
-        &mut self,
-        given: Given<N>,
-        a: usize,
-        points: Option<&Points>,
-        emitter: &mut Emitter<N>,
-    ) -> Result<()> {
-        let areas = &given.history().areas;
-        self.columns.clear();
-        self.columns.store_all(self.star.nodes.iter().map(|node| Place::Displacement(*node)).enumerate())?;
-        self.columns.sort_unstable_by_key(|(k, place)| (emitter.taker.order(*place), *k));
-        memory::refill(&mut self.blocks, NodeBlock::default(), self.neighbours.len())?;
-        let node = points.map_or_else(Default::default, |points| points.friction.nodes[a]);
-        let is_covered = points.is_some_and(|points| points.is_covered[a]);
-        let of_sigma = |both: &Both| both.normal * node.normal.transpose() + both.along * node.along;
-        for (&node, row) in self.star.nodes.iter().zip(&self.neighbours) {
-            let by_sigma = of_sigma(&row.force);
-            fill(&mut self.blocks, &self.neighbours, &by_sigma);
-            emitter.taker.row(Place::Displacement(node), &self.columns, &self.blocks);
-            emitter.taker.node(Place::Displacement(node), Place::Multiplier(a), by_sigma.as_slice());
-        }
-        for (&b, row) in self.star.rows.iter().zip(&self.rows) {
-            let own = points.map_or_else(Default::default, |points| points.friction.nodes[b]);
-            let scale = given.row_scale(b) / (given.augmentation(b) * areas[b]);
+            let (found, node) = (self.row.at(a)?, &friction.nodes[a]);
             let normal = own.normal * node.normal.transpose();
-            let by_sigma = (normal * row.normal + own.along * of_sigma(&row.along)) * scale;
-            fill(&mut self.blocks, &self.neighbours, &by_sigma);
-            emitter.taker.row(Place::Multiplier(b), &self.columns, &self.blocks);
-            let mut by_lambda = by_sigma - (normal + own.along * node.along) * (scale * row.left);
-            if b == a {
-                let held = Mat3::identity() - if is_covered { given.setup.nodes.free[a] } else { Mat3::zeros() };
-                by_lambda -= held * (scale * areas[a]);
+            if is_covered {
+                let left = facet.mass[row][l] + points.factors[i] * facet.stabilisation[row][l];
+                found.left += (normal + own.along * node.along) * left;
             }
-            emitter.taker.node(Place::Multiplier(b), Place::Multiplier(a), by_lambda.as_slice());
+            if points.is_covered[a] && !is_open {
+                let force = of_sigma(&sums[l], facet, node);
+                found.force += force;
+                if is_covered {
+                    let e = facet.normal;
+                    let pressure = e.dot(&(sums[l] * e));
+                    found.row += normal * pressure + own.along * (force - e * node.normal.transpose() * pressure);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds what mortar node c has of the k-th facet.
+    fn mortar(&mut self, c: usize, k: usize, PointNumbers { points, .. }: &PointNumbers) -> Result<()> {
+        let (one, two) = self.given.setup.surfaces();
+        let Some(at) = self.around.at(k).filter(|at| points.states[*at] != Closed::Nothing) else { return Ok(()) };
+        let (facet, friction, mut sums) = (&points.facets[at], &points.friction, OfFacet::default());
+        let mut is_there = false;
+        for place in facet.places() {
+            let Some(column) = two.host_nodes(points.pairs[place].two).iter().position(|&d| d == c) else { continue };
+            is_there = true;
+            add(&mut sums, (friction, friction.of_pair(place)), |point| point.other[column]);
+        }
+        for (&a, sum) in facet.nodes().iter().zip(&sums).filter(|_| is_there) {
+            if points.is_covered[a] && one.has_row(a) {
+                self.row.at(a)?.force -= of_sigma(sum, facet, &friction.nodes[a]);
+            }
+        }
+        Ok(())
+    }
+
+    /// Sums three rows up, from d R / d sigma_A and d R / d lambda_A of each A. Gives whether anything acts.
+    fn sum_up(&mut self, of: impl Fn(&Found) -> (Mat3, Mat3)) -> Result<bool> {
+        let Gathered { sums, of: nodes, acts } = &mut self.row;
+        self.acting.clear();
+        sums.clear();
+        for (&a, found) in nodes.iter().zip(&*acts) {
+            let (by_sigma, by_lambda) = of(found);
+            *sums.of_multiplier(a)? = rows(&by_lambda);
+            if by_sigma != Mat3::zeros() {
+                self.acting.store((a, rows(&by_sigma)))?;
+            }
+        }
+        if self.numbers.is_none() {
+            sums.reach(nodes.iter().copied(), self.slopes)?;
+            return Ok(true);
+        }
+        sums.add::<3>(&self.acting, self.slopes)?;
+        Ok(!self.acting.is_empty())
+    }
+
+    /// The rows of a non-mortar node.
+    fn emit_own(&mut self, i: usize, emitter: &mut Emitter<N>) -> Result<()> {
+        let (given, facets, has_row) = (self.given, self.around.around(i), self.given.setup.nonmortar.has_row(i));
+        let per_gap = given.row_scale(i) / given.augmentation(i);
+        if facets.is_empty() {
+            let value = Mat3::identity() * if self.numbers.is_some() { -per_gap } else { 0.0 };
+            if has_row {
+                emitter.taker.node(Place::Multiplier(i), Place::Multiplier(i), value.as_slice());
+            }
+            return Ok(());
+        }
+        self.row.begin();
+        for k in facets.iter().map(|&k| k as usize) {
+            match self.numbers {
+                Some(numbers) => self.own(i, k, numbers)?,
+                None => self.row.reach(&self.given.setup.nonmortar, self.around, k)?,
+            }
+        }
+        if self.sum_up(|found| (found.force, found.force))? {
+            emitter.taker.sums(Place::Displacement(i), &self.row.sums.blocks(0));
+        }
+        if has_row {
+            let scale = per_gap / given.history().areas[i];
+            self.sum_up(|found| (found.row * scale, (found.row - found.left) * scale))?;
+            if let Some(numbers) = self.numbers {
+                let free = if numbers.points.is_covered[i] { given.setup.nodes.free[i] } else { Mat3::zeros() };
+                let (own, held) = (self.row.sums.of_multiplier(i)?, rows(&(Mat3::identity() - free)));
+                own.as_flattened_mut().iter_mut().zip(held.as_flattened()).for_each(|(to, n)| *to -= per_gap * n);
+            }
+            emitter.taker.sums(Place::Multiplier(i), &self.row.sums.blocks(0));
+        }
+        Ok(())
+    }
+
+    /// The rows of mortar node c.
+    fn emit_mortar(&mut self, c: usize, emitter: &mut Emitter<N>) -> Result<()> {
+        self.row.begin();
+        for k in self.around.below(c).iter().map(|&k| k as usize) {
+            match self.numbers {
+                Some(numbers) => self.mortar(c, k, numbers)?,
+                None => self.row.reach(&self.given.setup.nonmortar, self.around, k)?,
+            }
+        }
+        if self.sum_up(|found| (found.force, found.force))? {
+            let place = Place::Displacement(self.given.nodes() + c);
+            emitter.taker.sums(place, &self.row.sums.blocks(0));
         }
         Ok(())
     }
 }
 
-/// The blocks of a row whose derivative by sigma_A is this.
-fn fill(blocks: &mut [NodeBlock], columns: &[Neighbour], by_sigma: &Mat3) {
-    for (block, column) in blocks.iter_mut().zip(columns) {
-        for j in 0..3 {
-            let by = by_sigma.column(j) * column.slope;
-            block[j] = [by.x, by.y, by.z, 0.0];
-        }
-    }
+/// Its three rows.
+fn rows(of: &Mat3) -> RowBlock {
+    std::array::from_fn(|i| if i < 3 { [of[(i, 0)], of[(i, 1)], of[(i, 2)], 0.0] } else { [0.0; 4] })
 }
 
 /// All blocks.
@@ -163,21 +193,12 @@ pub fn blocks<const N: usize>(
     numbers: Option<&PointNumbers>,
     emitter: &mut Emitter<N>,
 ) -> Result<()> {
-    let around = Around::of(given, pairs, None)?;
-    let points = numbers.map(|numbers| numbers.points);
-    let mut of_node = OfNode { star: Star::of(given)?, ..OfNode::default() };
-    for a in (0..given.nodes()).filter(|&a| given.setup.nonmortar.has_row(a)) {
-        if around.around(a).is_empty() {
-            let scale = given.row_scale(a) / given.augmentation(a);
-            let value = Mat3::identity() * if numbers.is_some() { -scale } else { 0.0 };
-            emitter.taker.node(Place::Multiplier(a), Place::Multiplier(a), value.as_slice());
-            continue;
-        }
-        of_node.begin(given, a, &around)?;
-        if let Some(points) = points {
-            around.around(a).iter().for_each(|&k| of_node.add(given, a, around.facets[k as usize], points));
-        }
-        of_node.emit(given, a, points, emitter)?;
-    }
-    Ok(())
+    let (surfaces, moves) = (given.setup.surfaces(), given.setup.effects.moves());
+    let around = Around::of(surfaces, moves, pairs, numbers.map(|numbers| numbers.points))?;
+    let slopes = Slopes::of((surfaces, &around, moves, false), numbers.map(|n| (n, Along::All)))?;
+    let (row, acting, slopes, around) = (Gathered::of(surfaces)?, Vec::new(), &slopes, &around);
+    let mut rows = Rows { given, around, numbers, slopes, row, acting };
+    (0..given.nodes()).try_for_each(|i| rows.emit_own(i, emitter))?;
+    let mortar = if moves { given.setup.mortar.len() } else { 0 };
+    (0..mortar).try_for_each(|c| rows.emit_mortar(c, emitter))
 }

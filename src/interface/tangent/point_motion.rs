@@ -2,9 +2,9 @@
 //! forces and rows at fixed sigma_A and lambda_A, which are blocks of the facet's nodes, and those of sigma_A of its nodes at fixed
 //! lambda_A, which the sums over nodes (`points.rs`) take in place of weights that are held.
 
+use super::around::Around;
 use super::emission::{Emitter, NodeBlock, Place};
 use super::point_numbers::PointNumbers;
-use super::star::Around;
 use crate::dual::{DualBasis, whole_area_derivative};
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};

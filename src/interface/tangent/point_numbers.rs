@@ -1,6 +1,6 @@
 //! Where points decide: what the numbers of a tangent are made of.
 
-use super::star::Around;
+use super::around::Around;
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
 use crate::interface::data::points::{Closed, Points};

@@ -3,12 +3,12 @@
 //! the nodes A of its facets, of d R / d sigma_A times what sigma_A depends on (`row_sums.rs`). Where sigma = 0 the tractions vanish: the
 //! border's motion adds nothing. What nodes whose facets are all open act on is left out.
 
+use super::around::Around;
 use super::emission::{Emitter, Place, RowBlock};
 use super::point_motion::of_facets;
 pub use super::point_numbers::PointNumbers;
-use super::row_sums::{Acting, RowSums};
-use super::slopes::Slopes;
-use super::star::Around;
+use super::row_sums::{Acting, Gathered};
+use super::slopes::{Along, Slopes};
 use super::union::Pairs;
 use crate::error::Result;
 use crate::interface::data::points::{Closed, OfNodes};
@@ -16,8 +16,14 @@ use crate::interface::pairing::given::Given;
 use crate::memory::Store;
 use crate::shape::MAX_CORNERS;
 
-/// d R / d sigma_A of one A: three components of a force, and the row of a multiplier beside them.
-type Act = [f64; 4];
+/// What a node has of one A.
+#[derive(Clone, Copy, Debug, Default)]
+struct Found {
+    /// d R / d sigma_A: three components of a force, and the row of a multiplier beside them.
+    acts: [f64; 4],
+    /// What the multiplier's row has of lambda_A at fixed sigma.
+    left: f64,
+}
 
 /// Rows in the making. What they are made of has no numbers where the pattern is asked for alone.
 struct Rows<'a, const N: usize> {
@@ -25,42 +31,11 @@ struct Rows<'a, const N: usize> {
     around: &'a Around,
     numbers: Option<&'a PointNumbers<'a>>,
     slopes: &'a Slopes,
-    sums: RowSums,
-    /// Of the row at hand: its A, what acts, and what the multiplier's row has of lambda_A at fixed sigma.
-    of: Vec<usize>,
-    acts: Vec<Act>,
-    left: Vec<f64>,
+    row: Gathered<Found>,
     acting: Vec<Acting>,
 }
 
 impl<const N: usize> Rows<'_, N> {
-    fn begin(&mut self) {
-        self.sums.begin();
-        self.of.clear();
-        self.acts.clear();
-        self.left.clear();
-        self.acting.clear();
-    }
-
-    /// The place of A among those of the row.
-    #[inline]
-    fn place(&mut self, a: usize) -> Result<usize> {
-        let place = self.sums.multiplier(a)?;
-        if place == self.of.len() {
-            self.of.store(a)?;
-            self.acts.store([0.0; 4])?;
-            self.left.store(0.0)?;
-        }
-        Ok(place)
-    }
-
-    /// The columns of all A of a facet.
-    fn reach(&mut self, k: usize) -> Result<()> {
-        let one = &self.given.setup.nonmortar;
-        let nodes = one.host_nodes(self.around.facets[k]).iter().filter(|b| one.has_row(**b));
-        nodes.copied().try_for_each(|a| self.place(a).map(|_| ()))
-    }
-
     /// Adds what a non-mortar node has of the k-th facet.
     fn own(&mut self, i: usize, k: usize, PointNumbers { points, .. }: &PointNumbers) -> Result<()> {
         let Some(at) = self.around.at(k) else { return Ok(()) };
@@ -72,14 +47,14 @@ impl<const N: usize> Rows<'_, N> {
             if !self.given.setup.nonmortar.has_row(a) {
                 continue;
             }
-            let place = self.place(a)?;
+            let found = self.row.at(a)?;
             if is_covered {
-                self.left[place] += facet.mass[row][l] + points.factors[i] * facet.stabilisation[row][l];
+                found.left += facet.mass[row][l] + points.factors[i] * facet.stabilisation[row][l];
             }
             if points.is_covered[a] && !is_open {
-                let (act, force) = (&mut self.acts[place], facet.normal * mass[l][row]);
-                (0..3).for_each(|n| act[n] += force[n]);
-                act[3] += if is_covered { mass[row][l] } else { 0.0 };
+                let force = facet.normal * mass[l][row];
+                (0..3).for_each(|n| found.acts[n] += force[n]);
+                found.acts[3] += if is_covered { mass[row][l] } else { 0.0 };
             }
         }
         Ok(())
@@ -100,8 +75,8 @@ impl<const N: usize> Rows<'_, N> {
         }
         for (&a, n) in facet.nodes().iter().zip(weights).filter(|_| is_there) {
             if points.is_covered[a] && one.has_row(a) {
-                let (place, force) = (self.place(a)?, facet.normal * n);
-                (0..3).for_each(|i| self.acts[place][i] -= force[i]);
+                let (found, force) = (self.row.at(a)?, facet.normal * n);
+                (0..3).for_each(|i| found.acts[i] -= force[i]);
             }
         }
         Ok(())
@@ -109,20 +84,22 @@ impl<const N: usize> Rows<'_, N> {
 
     /// Sums the row up, whose multiplier's row has these factors of what acts and of what is left; gives whether any force acts.
     fn sum_up<const R: usize>(&mut self, scale: f64) -> Result<bool> {
-        for (k, &a) in self.of.iter().enumerate() {
-            let (mut act, block) = (self.acts[k], self.sums.of_multiplier(a)?);
+        let Gathered { sums, of, acts } = &mut self.row;
+        self.acting.clear();
+        for (&a, found) in of.iter().zip(acts) {
+            let (mut act, block) = (found.acts, sums.of_multiplier(a)?);
             act[3] *= scale;
             (0..3).for_each(|i| block[i][0] = act[i]);
-            block[3][0] = act[3] - scale * self.left[k];
+            block[3][0] = act[3] - scale * found.left;
             if act != [0.0; 4] {
                 self.acting.store((a, act.map(|by| [by; 4])))?;
             }
         }
         if self.numbers.is_none() {
-            self.sums.reach(self.of.iter().copied(), self.slopes)?;
+            sums.reach(of.iter().copied(), self.slopes)?;
             return Ok(true);
         }
-        self.sums.add::<R>(&self.acting, self.slopes)?;
+        sums.add::<R>(&self.acting, self.slopes)?;
         Ok(!self.acting.is_empty())
     }
 
@@ -136,40 +113,40 @@ impl<const N: usize> Rows<'_, N> {
             }
             return Ok(());
         }
-        self.begin();
+        self.row.begin();
         for k in facets.iter().map(|&k| k as usize) {
             match self.numbers {
                 Some(numbers) => self.own(i, k, numbers)?,
-                None => self.reach(k)?,
+                None => self.row.reach(&self.given.setup.nonmortar, self.around, k)?,
             }
         }
         let scale = given.row_scale(i) / (given.augmentation(i) * given.history().areas[i]);
         let acts = self.sum_up::<4>(scale)?;
         if has_row && self.numbers.is_some_and(|numbers| !numbers.points.is_covered[i]) {
-            let own: &mut RowBlock = self.sums.of_multiplier(i)?;
+            let own: &mut RowBlock = self.row.sums.of_multiplier(i)?;
             own[3][0] = -given.row_scale(i) / given.augmentation(i);
         }
         if acts {
-            emitter.taker.sums(Place::Displacement(i), &self.sums.blocks(0));
+            emitter.taker.sums(Place::Displacement(i), &self.row.sums.blocks(0));
         }
         if has_row {
-            emitter.taker.sums(Place::Multiplier(i), &self.sums.blocks(3));
+            emitter.taker.sums(Place::Multiplier(i), &self.row.sums.blocks(3));
         }
         Ok(())
     }
 
     /// The rows of mortar node c.
     fn emit_mortar(&mut self, c: usize, emitter: &mut Emitter<N>) -> Result<()> {
-        self.begin();
+        self.row.begin();
         for k in self.around.below(c).iter().map(|&k| k as usize) {
             match self.numbers {
                 Some(numbers) => self.mortar(c, k, numbers)?,
-                None => self.reach(k)?,
+                None => self.row.reach(&self.given.setup.nonmortar, self.around, k)?,
             }
         }
         if self.sum_up::<3>(0.0)? {
             let place = Place::Displacement(self.given.nodes() + c);
-            emitter.taker.sums(place, &self.sums.blocks(0));
+            emitter.taker.sums(place, &self.row.sums.blocks(0));
         }
         Ok(())
     }
@@ -181,16 +158,17 @@ pub fn blocks<const N: usize>(
     numbers: Option<&PointNumbers>,
     emitter: &mut Emitter<N>,
 ) -> Result<()> {
-    let around = Around::of(given, pairs, numbers.map(|numbers| numbers.points))?;
+    let (surfaces, moves) = (given.setup.surfaces(), given.setup.effects.moves());
+    let around = Around::of(surfaces, moves, pairs, numbers.map(|numbers| numbers.points))?;
     let motions = match numbers.and_then(|numbers| Some((numbers, numbers.active?))) {
         Some(numbers) => Some(of_facets(given, numbers, &around, emitter)?),
         None => None,
     };
-    let slopes = Slopes::of(given, &around, numbers.map(|numbers| (numbers, motions.as_ref())))?;
-    let (of, acts, left, acting) = Default::default();
-    let (sums, slopes, around) = (RowSums::of(given)?, &slopes, &around);
-    let mut rows = Rows { given, around, numbers, slopes, sums, of, acts, left, acting };
+    let own = given.setup.options.differentiates_weights();
+    let slopes = Slopes::of((surfaces, &around, moves, own), numbers.map(|n| (n, Along::Normals(motions.as_ref()))))?;
+    let (row, acting, slopes, around) = (Gathered::of(surfaces)?, Vec::new(), &slopes, &around);
+    let mut rows = Rows { given, around, numbers, slopes, row, acting };
     (0..given.nodes()).try_for_each(|i| rows.emit_own(i, emitter))?;
-    let mortar = if given.setup.effects.moves() { given.setup.mortar.len() } else { 0 };
+    let mortar = if moves { given.setup.mortar.len() } else { 0 };
     (0..mortar).try_for_each(|c| rows.emit_mortar(c, emitter))
 }

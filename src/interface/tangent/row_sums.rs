@@ -2,10 +2,11 @@
 //! A of the facets that reach it. The sum is in place before any of it leaves: an entry of the tangent is written once,
 //! however many A it has.
 
+use super::around::Around;
 use super::emission::{RowBlock, RowBlocks};
 use super::slopes::Slopes;
 use crate::error::Result;
-use crate::interface::pairing::given::Given;
+use crate::interface::data::surface::Surface;
 use crate::memory::{self, Store};
 use crate::simd::{self, Kernel, Lanes};
 
@@ -26,8 +27,8 @@ pub struct RowSums {
 
 impl RowSums {
     /// Of no node yet.
-    pub fn of<const N: usize>(given: Given<N>) -> Result<RowSums> {
-        let (n1, nodes) = (given.nodes(), given.nodes() + given.setup.mortar.len());
+    pub fn of((one, two): (&Surface, &Surface)) -> Result<RowSums> {
+        let (n1, nodes) = (one.len(), one.len() + two.len());
         Ok(RowSums { places: memory::filled(NOWHERE, nodes + n1)?, nodes, ..RowSums::default() })
     }
 
@@ -35,6 +36,11 @@ impl RowSums {
     pub fn begin(&mut self) {
         self.columns.drain(..).for_each(|column| self.places[column] = NOWHERE);
         self.blocks.clear();
+    }
+
+    /// Zeros in all columns so far, which stay.
+    pub fn clear(&mut self) {
+        self.blocks.fill(RowBlock::default());
     }
 
     /// The place of this column, which it gets if it has none.
@@ -84,6 +90,45 @@ impl RowSums {
     /// The blocks; of the rows that begin with this one.
     pub fn blocks(&self, first: usize) -> RowBlocks<'_> {
         RowBlocks { columns: &self.columns, blocks: &self.blocks, places: &self.places, nodes: self.nodes, first }
+    }
+}
+
+/// The A of the facets around a node, each with what is found of it: with friction and without it they are not the same.
+pub struct Gathered<T> {
+    pub sums: RowSums,
+    /// In the order of their columns, which come before all others.
+    pub of: Vec<usize>,
+    pub acts: Vec<T>,
+}
+
+impl<T: Copy + Default> Gathered<T> {
+    /// Of no node yet.
+    pub fn of(surfaces: (&Surface, &Surface)) -> Result<Gathered<T>> {
+        Ok(Gathered { sums: RowSums::of(surfaces)?, of: Vec::new(), acts: Vec::new() })
+    }
+
+    /// Begins with another node.
+    pub fn begin(&mut self) {
+        self.sums.begin();
+        self.of.clear();
+        self.acts.clear();
+    }
+
+    /// What is found of A.
+    #[inline]
+    pub fn at(&mut self, a: usize) -> Result<&mut T> {
+        let place = self.sums.multiplier(a)?;
+        if place == self.of.len() {
+            self.of.store(a)?;
+            self.acts.store(T::default())?;
+        }
+        Ok(&mut self.acts[place])
+    }
+
+    /// The columns of all A of the k-th facet around.
+    pub fn reach(&mut self, one: &Surface, around: &Around, k: usize) -> Result<()> {
+        let nodes = one.host_nodes(around.facets[k]).iter().filter(|b| one.has_row(**b));
+        nodes.copied().try_for_each(|a| self.at(a).map(|_| ()))
     }
 }
 

@@ -1,17 +1,18 @@
-//! What sigma_A of each node depends on beside lambda_A (docs/formulation.md 16.4): rhat_A nu_A . Dg_A / D_A. With weights that are held dual
+//! What sigma_A of each node depends on beside lambda_A (docs/formulation.md 16.4): rhat_A nu_A . Dg_A / D_A; with friction rhat_A Dg_A / D_A
+//! in each direction. With weights that are held dual
 //! ones leave no node of its own side but A: sum_B n^d_AB x_B = D_A x_A (10.1), for off the diagonal there is nothing but rounding. With
 //! weights that are differentiated there are all nodes of the facets around A.
 
+use super::around::Around;
 use super::point_motion::Motions;
 use super::point_numbers::PointNumbers;
-use super::star::Around;
 use crate::error::Result;
 use crate::geometry::Vec3;
-use crate::interface::pairing::given::Given;
+use crate::interface::data::surface::Surface;
 use crate::memory::{self, Store};
 
 /// The nodes of both surfaces that each sigma_A depends on, and d sigma_A / dx, each with a fourth number that is 0. Without
-/// numbers the nodes alone; with them those of the sigma_A that act alone.
+/// numbers the nodes alone; with them those of the sigma_A that act alone. With friction the numbers are those of the three directions.
 #[derive(Debug, Default)]
 pub struct Slopes {
     first: Vec<usize>,
@@ -45,25 +46,35 @@ fn lanes(v: Vec3) -> [f64; 4] {
     [v.x, v.y, v.z, 0.0]
 }
 
+/// Which gap of its node sigma_A follows.
+#[derive(Clone, Copy)]
+pub enum Along<'a> {
+    /// That along nu_A; the motions of the weights, if these are differentiated.
+    Normals(Option<&'a Motions>),
+    /// With friction: that in each direction.
+    All,
+}
+
+/// The surfaces, what is around their nodes, whether the mortar side moves, and whether weights are differentiated.
+pub type Sides<'a> = ((&'a Surface, &'a Surface), &'a Around, bool, bool);
+
 impl Slopes {
     /// Of all nodes.
-    pub fn of<const N: usize>(
-        given: Given<N>,
-        around: &Around,
-        numbers: Option<(&PointNumbers, Option<&Motions>)>,
-    ) -> Result<Slopes> {
-        let (mut all, n1) = (Slopes::default(), given.nodes());
-        let places = memory::filled(0, n1 + given.setup.mortar.len())?;
+    pub fn of(sides: Sides, numbers: Option<(&PointNumbers, Along)>) -> Result<Slopes> {
+        let ((one, two), around, ..) = sides;
+        let (mut all, n1) = (Slopes::default(), one.len());
+        let places = memory::filled(0, n1 + two.len())?;
         let mut finder = Finder { of: &mut all, places, first: 0 };
         for a in 0..n1 {
             finder.first = finder.of.nodes.len();
             finder.of.first.store(finder.first)?;
-            if given.setup.nonmortar.has_row(a) && !around.around(a).is_empty() {
+            if one.has_row(a) && !around.around(a).is_empty() {
                 match numbers {
-                    None => finder.reach(given, a, around)?,
+                    None => finder.reach(sides, a)?,
                     Some((numbers, _)) if !numbers.acts(a, around) => {}
-                    Some((numbers, None)) => finder.held(given, a, around, numbers)?,
-                    Some((_, Some(motions))) => finder.moving(given, a, around, motions)?,
+                    Some((_, Along::Normals(Some(motions)))) => finder.moving(sides, a, motions)?,
+                    Some((numbers, Along::Normals(None))) => finder.held(sides, a, numbers, numbers.normals[a])?,
+                    Some((numbers, Along::All)) => finder.held(sides, a, numbers, Vec3::repeat(1.0))?,
                 }
             }
         }
@@ -86,8 +97,7 @@ impl Slopes {
 
 impl Finder<'_> {
     /// The nodes alone.
-    fn reach<const N: usize>(&mut self, given: Given<N>, a: usize, around: &Around) -> Result<()> {
-        let (one, own) = (&given.setup.nonmortar, given.setup.options.differentiates_weights());
+    fn reach(&mut self, ((one, _), around, _, own): Sides, a: usize) -> Result<()> {
         self.place(a)?;
         for &k in around.around(a) {
             for &b in one.host_nodes(around.facets[k as usize]).iter().filter(|_| own) {
@@ -98,20 +108,19 @@ impl Finder<'_> {
         Ok(())
     }
 
-    /// With weights that are held.
-    fn held<const N: usize>(
+    /// With weights that are held, along this direction.
+    fn held(
         &mut self,
-        given: Given<N>,
+        ((one, two), around, moves, _): Sides,
         a: usize,
-        around: &Around,
-        PointNumbers { points, sums, normals, .. }: &PointNumbers,
+        PointNumbers { points, sums, .. }: &PointNumbers,
+        direction: Vec3,
     ) -> Result<()> {
-        let (one, two) = given.setup.surfaces();
-        let along = normals[a] * points.rhat[a];
+        let along = direction * points.rhat[a];
         let own = self.place(a)?;
         for facet in around.around(a).iter().filter_map(|&k| around.at(k as usize)).map(|at| &points.facets[at]) {
             let Some(l) = facet.nodes().iter().position(|&b| b == a) else { continue };
-            for pair in points.pairs[facet.places()].iter().filter(|_| given.setup.effects.moves()) {
+            for pair in points.pairs[facet.places()].iter().filter(|_| moves) {
                 for (&c, n) in two.host_nodes(pair.two).iter().zip(&pair.dual.ac[l]) {
                     let place = self.place(one.len() + c)?;
                     self.of.slopes[place][0] -= n;
@@ -125,8 +134,7 @@ impl Finder<'_> {
     }
 
     /// With weights that are differentiated.
-    fn moving<const N: usize>(&mut self, given: Given<N>, a: usize, around: &Around, motions: &Motions) -> Result<()> {
-        let one = &given.setup.nonmortar;
+    fn moving(&mut self, ((one, _), around, ..): Sides, a: usize, motions: &Motions) -> Result<()> {
         for k in around.around(a).iter().map(|&k| k as usize) {
             let (own, mortar) = (one.host_nodes(around.facets[k]), around.mortar(k));
             let Some(l) = own.iter().position(|&b| b == a) else { continue };

@@ -12,7 +12,7 @@ use crate::interface::pairing::analytic;
 use crate::interface::pairing::candidates::{KeptTree, SKIN, candidates};
 use crate::interface::pairing::filter::Filter;
 use crate::interface::pairing::given::Given;
-use crate::memory::{Store, Stored};
+use crate::memory::{self, Store, Stored};
 use crate::mortar::{MORTAR, PAIR_NODES, PairWeights, ParentWeights};
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 use crate::simd;
@@ -226,7 +226,7 @@ pub fn possible_pairs<const N: usize>(
         pairs.iter_mut().for_each(|pair| *pair = (p.parent(pair.0), q.parent(pair.1)));
         pairs.store_all(h.parents.iter().map(|p| (p.one, p.two)))?;
     }
-    pairs.sort_unstable();
+    memory::sort(&mut pairs)?;
     pairs.dedup();
     Ok(pairs)
 }

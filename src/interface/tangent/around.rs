@@ -1,0 +1,68 @@
+//! What is around a node, for tangents where points decide (docs/formulation.md 16.4): its facets, and the mortar nodes that these reach.
+
+use super::union::{Pairs, Walk};
+use crate::error::Result;
+use crate::interface::data::lists::Lists;
+use crate::interface::data::points::Points;
+use crate::interface::data::surface::Surface;
+use crate::memory::Store;
+
+/// The facets around each node, with the mortar nodes of each.
+#[derive(Debug, Default)]
+pub struct Around {
+    pub facets: Vec<usize>,
+    /// Where the points have each facet.
+    at: Vec<Option<u32>>,
+    mortar: Lists,
+    /// By non-mortar nodes, and by mortar nodes.
+    of_node: Lists,
+    below: Lists,
+}
+
+impl Around {
+    /// Those that have pairs; `moves`: the mortar side does; `points`: whose facets they are.
+    pub fn of((one, two): (&Surface, &Surface), moves: bool, pairs: Pairs, points: Option<&Points>) -> Result<Around> {
+        let (mut all, mut walk, mut of_facet) = (Around::default(), Walk::through(pairs, 0..usize::MAX), Vec::new());
+        let mut ahead = points.map_or(&[][..], |points| &points.facets).iter().enumerate().peekable();
+        all.mortar.first.store(0)?;
+        while let Some(f) = walk.next(&mut of_facet)? {
+            while ahead.next_if(|(_, facet)| facet.one < f).is_some() {}
+            all.facets.store(f)?;
+            all.at.store(ahead.peek().filter(|(_, facet)| facet.one == f).map(|(at, _)| *at as u32))?;
+            let first = all.mortar.all.len();
+            for &c in of_facet.iter().filter(|_| moves).flat_map(|pair| two.host_nodes(pair.two)) {
+                if !all.mortar.all[first..].contains(&(c as u32)) {
+                    all.mortar.all.store(c as u32)?;
+                }
+            }
+            all.mortar.first.store(all.mortar.all.len())?;
+        }
+        let facets = &all.facets;
+        all.of_node = Lists::of(one.len(), |give| {
+            (0..).zip(facets).for_each(|(k, &f)| one.host_nodes(f).iter().for_each(|&a| give(a, k)));
+        })?;
+        all.below = Lists::of(two.len(), |give| {
+            (0..facets.len()).for_each(|k| all.mortar.get(k).iter().for_each(|&c| give(c as usize, k as u32)));
+        })?;
+        Ok(all)
+    }
+
+    pub fn around(&self, a: usize) -> &[u32] {
+        self.of_node.get(a)
+    }
+
+    /// The facets that have mortar node c.
+    pub fn below(&self, c: usize) -> &[u32] {
+        self.below.get(c)
+    }
+
+    pub fn mortar(&self, k: usize) -> &[u32] {
+        self.mortar.get(k)
+    }
+
+    /// Where the points have the k-th facet.
+    #[inline]
+    pub fn at(&self, k: usize) -> Option<usize> {
+        self.at[k].map(|at| at as usize)
+    }
+}
