@@ -611,7 +611,7 @@ typedef struct stickslip_options {
   /// 0 (default, C) or 1 (Fortran): base of node numbers, equations, rows, columns and row offsets. Not of
   /// facet_offsets.
   int32_t index_base;
-  /// Coulomb coefficient of all nodes [-]; default 0.
+  /// Coulomb coefficient of all nodes [-]; default 0, and 0 with FRICTION_NONE, _ROUGH and _TIED.
   double mu;
   /// rhat [F/L^3]; 0 (default): use the modulus. One of the two is needed: nothing else has the unit
   /// of a stiffness. The answer does not depend on it, except with STICKSLIP_DECISION_POINTS.
@@ -697,7 +697,7 @@ typedef struct stickslip_options {
 /// the distance from P0 to the farthest non-mortar node, and S the frame's distance from the origin or D, the larger. A
 /// frame that moves it by more than 1e-8 of the longest facet edge is refused, INVALID_VALUE. The forces on these nodes
 /// are statically equivalent to those on the surface. A facet takes part in a step when at t_n its normal opposes the
-/// surface's; it then counts as covered.
+/// surface's to within 80 degrees, as between facets; it then counts as covered.
 typedef struct stickslip_surface {
   /// sizeof(stickslip_surface).
   uint64_t struct_size;
@@ -983,7 +983,7 @@ typedef struct stickslip_node {
   double normal[3];
   /// r > 0 [F/L^5]; about 0.1 E / M_A^1.5, E the softer body's modulus, M_A the node's area. The answer does not depend on it.
   double augmentation;
-  /// Coulomb coefficient >= 0 [-].
+  /// Coulomb coefficient >= 0 [-]; 0 with FRICTION_NONE, _ROUGH and _TIED.
   double mu;
   /// Covered area now [L^2]: the sum of n_AB over all B and all pairs.
   double coverage;
@@ -2014,7 +2014,8 @@ int32_t stickslip_node_normal(const double *sum, double *normal);
 /// the areas of its multipliers: the sums of the rows of its n_ab.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET (of a quadratic facet, also
-/// where mid nodes do not follow the corners in order), PROJECTION_NOT_CONVEX, INVALID_VALUE (also a node at r < 0),
+/// where mid nodes do not follow the corners in order, or lie more than a quarter of the edge off its middle),
+/// PROJECTION_NOT_CONVEX, INVALID_VALUE (also a node at r < 0),
 /// UNSUPPORTED (quadratic facets or lines with element_points or neighbour_normals).
 /// Cost: 1 (tri3) to 2 (quad4) microseconds, 1 to 7 with derivatives, 2 to 2.5 times that with QUADRATURE_DEGREE_10;
 /// two quadratic facets 7 (tri6) to 14 (quad8), 50 to 140 with derivatives; lines 0.5, up to 2 with derivatives. Allocates nothing, but memory for

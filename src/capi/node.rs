@@ -34,7 +34,7 @@ pub struct stickslip_node {
     pub normal: [f64; 3],
     /// r > 0 [F/L^5]; about 0.1 E / M_A^1.5, E the softer body's modulus, M_A the node's area. The answer does not depend on it.
     pub augmentation: f64,
-    /// Coulomb coefficient >= 0 [-].
+    /// Coulomb coefficient >= 0 [-]; 0 with FRICTION_NONE, _ROUGH and _TIED.
     pub mu: f64,
     /// Covered area now [L^2]: the sum of n_AB over all B and all pairs.
     pub coverage: f64,

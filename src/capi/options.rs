@@ -165,7 +165,7 @@ pub struct stickslip_options {
     /// 0 (default, C) or 1 (Fortran): base of node numbers, equations, rows, columns and row offsets. Not of
     /// facet_offsets.
     pub index_base: i32,
-    /// Coulomb coefficient of all nodes [-]; default 0.
+    /// Coulomb coefficient of all nodes [-]; default 0, and 0 with FRICTION_NONE, _ROUGH and _TIED.
     pub mu: f64,
     /// rhat [F/L^3]; 0 (default): use the modulus. One of the two is needed: nothing else has the unit
     /// of a stiffness. The answer does not depend on it, except with STICKSLIP_DECISION_POINTS.

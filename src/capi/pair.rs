@@ -63,7 +63,8 @@ fn with_derivatives(
 /// the areas of its multipliers: the sums of the rows of its n_ab.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET (of a quadratic facet, also
-/// where mid nodes do not follow the corners in order), PROJECTION_NOT_CONVEX, INVALID_VALUE (also a node at r < 0),
+/// where mid nodes do not follow the corners in order, or lie more than a quarter of the edge off its middle),
+/// PROJECTION_NOT_CONVEX, INVALID_VALUE (also a node at r < 0),
 /// UNSUPPORTED (quadratic facets or lines with element_points or neighbour_normals).
 /// Cost: 1 (tri3) to 2 (quad4) microseconds, 1 to 7 with derivatives, 2 to 2.5 times that with QUADRATURE_DEGREE_10;
 /// two quadratic facets 7 (tri6) to 14 (quad8), 50 to 140 with derivatives; lines 0.5, up to 2 with derivatives. Allocates nothing, but memory for

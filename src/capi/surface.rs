@@ -31,7 +31,7 @@ pub const STICKSLIP_NODE_ELSEWHERE: i32 = 2;
 /// the distance from P0 to the farthest non-mortar node, and S the frame's distance from the origin or D, the larger. A
 /// frame that moves it by more than 1e-8 of the longest facet edge is refused, INVALID_VALUE. The forces on these nodes
 /// are statically equivalent to those on the surface. A facet takes part in a step when at t_n its normal opposes the
-/// surface's; it then counts as covered.
+/// surface's to within 80 degrees, as between facets; it then counts as covered.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct stickslip_surface {
