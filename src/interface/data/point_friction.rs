@@ -76,6 +76,15 @@ impl PointFriction {
         begin..self.ends[pair]
     }
 
+    /// The points of pairs that follow each other, and what they answer.
+    pub fn answered(&self, pairs: std::ops::Range<usize>) -> (&[OverlapPoint], &[Projected]) {
+        if pairs.is_empty() {
+            return (&[], &[]);
+        }
+        let (first, end) = (self.of_pair(pairs.start).start, self.ends[pairs.end - 1]);
+        (&self.points[first..end], &self.answers[first..end])
+    }
+
     /// On the heap `[bytes]`.
     pub fn bytes(&self) -> usize {
         self.points.capacity() * size_of::<OverlapPoint>()

@@ -32,8 +32,7 @@ struct Tractions<'a> {
 impl<'a> Tractions<'a> {
     /// Of a facet of that step; `None`: it had no points.
     fn of(old: &PointFacet, before: &'a Points) -> Option<Tractions<'a>> {
-        let (first, end) = (before.friction.of_pair(old.pairs[0]).start, before.friction.of_pair(old.pairs[1] - 1).end);
-        let (points, answers) = (&before.friction.points[first..end], &before.friction.answers[first..end]);
+        let (points, answers) = before.friction.answered(old.places());
         let (mut mass, mut force) = ([[0.0; MAX_CORNERS]; MAX_CORNERS], [[0.0; MAX_CORNERS]; 3]);
         for (point, answer) in points.iter().zip(answers) {
             for a in 0..MAX_CORNERS {

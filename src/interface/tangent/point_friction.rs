@@ -10,13 +10,13 @@ use super::slopes::{Along, Slopes};
 use super::union::Pairs;
 use crate::error::Result;
 use crate::geometry::Mat3;
-use crate::interface::data::point_friction::{FrictionNode, PointFriction};
+use crate::interface::data::point_friction::FrictionNode;
 use crate::interface::data::points::{Closed, PointFacet};
 use crate::interface::pairing::given::Given;
+use crate::law::Projected;
 use crate::memory::Store;
 use crate::mortar::OverlapPoint;
 use crate::shape::MAX_CORNERS;
-use std::ops::Range;
 
 /// What a node has of one A.
 #[derive(Clone, Copy, Debug, Default)]
@@ -33,8 +33,8 @@ struct Found {
 type OfFacet = [Mat3; MAX_CORNERS];
 
 /// Adds those of these points; N is what `of` gives for a node.
-fn add(sums: &mut OfFacet, (friction, points): (&PointFriction, Range<usize>), of: impl Fn(&OverlapPoint) -> f64) {
-    for (point, answer) in friction.points[points.clone()].iter().zip(&friction.answers[points]) {
+fn add(sums: &mut OfFacet, points: (&[OverlapPoint], &[Projected]), of: impl Fn(&OverlapPoint) -> f64) {
+    for (point, answer) in points.0.iter().zip(points.1) {
         let h = answer.derivative * (point.weight * of(point));
         sums.iter_mut().zip(&point.own).for_each(|(sum, n)| *sum += h * *n);
     }
@@ -64,9 +64,7 @@ impl<const N: usize> Rows<'_, N> {
         let Some(row) = facet.nodes().iter().position(|&b| b == i) else { return Ok(()) };
         let (is_open, is_covered) = (points.states[at] == Closed::Nothing, points.is_covered[i]);
         if !is_open {
-            // The points of a facet's pairs follow each other.
-            let all = friction.of_pair(facet.pairs[0]).start..friction.of_pair(facet.pairs[1] - 1).end;
-            add(&mut sums, (friction, all), |point| point.own[row]);
+            add(&mut sums, friction.answered(facet.places()), |point| point.own[row]);
         }
         let own = &friction.nodes[i];
         for (l, &a) in facet.nodes().iter().enumerate() {
@@ -101,7 +99,7 @@ impl<const N: usize> Rows<'_, N> {
         for place in facet.places() {
             let Some(column) = two.host_nodes(points.pairs[place].two).iter().position(|&d| d == c) else { continue };
             is_there = true;
-            add(&mut sums, (friction, friction.of_pair(place)), |point| point.other[column]);
+            add(&mut sums, friction.answered(place..place + 1), |point| point.other[column]);
         }
         for (&a, sum) in facet.nodes().iter().zip(&sums).filter(|_| is_there) {
             if points.is_covered[a] && one.has_row(a) {
