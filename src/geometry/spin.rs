@@ -38,7 +38,7 @@ impl Spin {
         if length > 0.0 { Spin { normal, cosine: cosine / length, sine: sine / length } } else { none }
     }
 
-    /// By how much, without its sign [rad].
+    /// By how much, in radians, without its sign.
     pub fn angle(&self) -> f64 {
         self.sine.abs().atan2(self.cosine)
     }
