@@ -1858,9 +1858,9 @@ int32_t stickslip_interface_step_limit(struct stickslip_interface *interface,
 /// Inputs x1, x2, lambda, sums as for `stickslip_interface_states`.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (a
-/// mortar surface in layers, an analytic surface's frame), TURNED_TOO_FAR (by more than options.turn_max since the last commit; with friction against each other, too),
-/// CONTACT_LOST (a closed node would lose a pair that is deeper than one may be, or all that covers it); then nothing
-/// has moved.
+/// mortar surface in layers, an analytic surface's frame), TURNED_TOO_FAR (by more than options.turn_max since the last commit;
+/// with friction against each other, too), CONTACT_LOST (a closed node would lose a pair that is deeper than one may be, or all
+/// that covers it); then nothing has moved.
 /// Cost: as `stickslip_interface_states`, then O(n1 + n2) for what the next step needs. Of facets between which there can be
 /// contact in the next step alone the weights are integrated; with WEIGHTS_COMMITTED, an analytic mortar side or
 /// STICKSLIP_INTEGRATION_HYBRID all are, after one search (WEIGHTS_REFERENCE: none). Allocates. The history before it is

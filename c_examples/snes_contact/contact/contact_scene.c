@@ -145,7 +145,7 @@ static const char *const OFFSETS[] = {"offset", "offset_at", "round"};
 static PetscInt usual_weights(Scene *scene, const Physics *physics, const Interface *interface, PetscInt normals, PetscInt slip)
 {
   if (!physics->dynamics || normals == STICKSLIP_NORMALS_CURRENT || slip == STICKSLIP_SLIP_PAPER ||
-      interface->options.decision == STICKSLIP_DECISION_POINTS)
+      decision_is_points(interface))
     return STICKSLIP_WEIGHTS_CURRENT;
   for (size_t k = 0; k < sizeof(OFFSETS) / sizeof(OFFSETS[0]); k++) {
     if (scene_has(scene, interface->name, OFFSETS[k])) return STICKSLIP_WEIGHTS_CURRENT;

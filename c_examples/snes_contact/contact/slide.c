@@ -52,10 +52,10 @@ static PetscErrorCode measure_turn(Interface *interface, const Mesh *mesh)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Such weights are frozen. */
+/* There weights of now are refused. */
 static PetscBool decides_at_points_with_friction(const Interface *interface)
 {
-  return (PetscBool)(interface->options.decision == STICKSLIP_DECISION_POINTS && interface->options.friction != STICKSLIP_FRICTION_NONE);
+  return (PetscBool)(decision_is_points(interface) && interface->options.friction != STICKSLIP_FRICTION_NONE);
 }
 
 /* At a converged state: how far weights of the last step have slid, over what is allowed. `why`, where that is too far: the step does

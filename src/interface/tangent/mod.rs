@@ -18,6 +18,7 @@ pub mod parents;
 pub mod point_friction;
 pub mod point_motion;
 pub mod point_numbers;
+mod point_rows;
 pub mod points;
 pub mod row_sums;
 pub mod slopes;

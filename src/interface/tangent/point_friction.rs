@@ -5,7 +5,7 @@
 use super::around::Around;
 use super::emission::{Emitter, Place, RowBlock};
 use super::point_numbers::PointNumbers;
-use super::row_sums::{Acting, Gathered};
+use super::point_rows::{self, FORCES, Rows};
 use super::slopes::{Along, Slopes};
 use super::union::Pairs;
 use crate::error::Result;
@@ -14,7 +14,6 @@ use crate::interface::data::point_friction::FrictionNode;
 use crate::interface::data::points::{Closed, PointFacet};
 use crate::interface::pairing::given::Given;
 use crate::law::Projected;
-use crate::memory::Store;
 use crate::mortar::OverlapPoint;
 use crate::shape::MAX_CORNERS;
 
@@ -46,20 +45,9 @@ fn of_sigma(sum: &Mat3, facet: &PointFacet, node: &FrictionNode) -> Mat3 {
     normal * node.normal.transpose() + (sum - normal * facet.normal.transpose()) * node.along
 }
 
-/// Rows in the making. What they are made of has no numbers where the pattern is asked for alone.
-struct Rows<'a, const N: usize> {
-    given: Given<'a, N>,
-    around: &'a Around,
-    numbers: Option<&'a PointNumbers<'a>>,
-    slopes: &'a Slopes,
-    row: Gathered<Found>,
-    acting: Vec<Acting>,
-}
-
-impl<const N: usize> Rows<'_, N> {
-    /// Adds what a non-mortar node has of the k-th facet.
-    fn own(&mut self, i: usize, k: usize, PointNumbers { points, .. }: &PointNumbers) -> Result<()> {
-        let Some(at) = self.around.at(k) else { return Ok(()) };
+impl<const N: usize> point_rows::Found<N> for Found {
+    fn add_own(rows: &mut Rows<Self, N>, i: usize, k: usize, PointNumbers { points, .. }: &PointNumbers) -> Result<()> {
+        let Some(at) = rows.around.at(k) else { return Ok(()) };
         let (facet, friction, mut sums) = (&points.facets[at], &points.friction, OfFacet::default());
         let Some(row) = facet.nodes().iter().position(|&b| b == i) else { return Ok(()) };
         let (is_open, is_covered) = (points.states[at] == Closed::Nothing, points.is_covered[i]);
@@ -68,10 +56,10 @@ impl<const N: usize> Rows<'_, N> {
         }
         let own = &friction.nodes[i];
         for (l, &a) in facet.nodes().iter().enumerate() {
-            if !self.given.setup.nonmortar.has_row(a) {
+            if !rows.given.setup.nonmortar.has_row(a) {
                 continue;
             }
-            let (found, node) = (self.row.at(a)?, &friction.nodes[a]);
+            let (found, node) = (rows.at(a)?, &friction.nodes[a]);
             let normal = own.normal * node.normal.transpose();
             if is_covered {
                 let left = facet.mass[row][l] + points.factors[i] * facet.stabilisation[row][l];
@@ -90,10 +78,14 @@ impl<const N: usize> Rows<'_, N> {
         Ok(())
     }
 
-    /// Adds what mortar node c has of the k-th facet.
-    fn mortar(&mut self, c: usize, k: usize, PointNumbers { points, .. }: &PointNumbers) -> Result<()> {
-        let (one, two) = self.given.setup.surfaces();
-        let Some(at) = self.around.at(k).filter(|at| points.states[*at] != Closed::Nothing) else { return Ok(()) };
+    fn add_mortar(
+        rows: &mut Rows<Self, N>,
+        c: usize,
+        k: usize,
+        PointNumbers { points, .. }: &PointNumbers,
+    ) -> Result<()> {
+        let (one, two) = rows.given.setup.surfaces();
+        let Some(at) = rows.around.at(k).filter(|at| points.states[*at] != Closed::Nothing) else { return Ok(()) };
         let (facet, friction, mut sums) = (&points.facets[at], &points.friction, OfFacet::default());
         let mut is_there = false;
         for place in facet.places() {
@@ -103,85 +95,40 @@ impl<const N: usize> Rows<'_, N> {
         }
         for (&a, sum) in facet.nodes().iter().zip(&sums).filter(|_| is_there) {
             if points.is_covered[a] && one.has_row(a) {
-                self.row.at(a)?.force -= of_sigma(sum, facet, &friction.nodes[a]);
+                rows.at(a)?.force -= of_sigma(sum, facet, &friction.nodes[a]);
             }
         }
         Ok(())
     }
 
-    /// Sums three rows up, from d R / d sigma_A and d R / d lambda_A of each A. Gives whether anything acts.
-    fn sum_up(&mut self, of: impl Fn(&Found) -> (Mat3, Mat3)) -> Result<bool> {
-        let Gathered { sums, of: nodes, acts } = &mut self.row;
-        self.acting.clear();
-        sums.clear();
-        for (&a, found) in nodes.iter().zip(&*acts) {
-            let (by_sigma, by_lambda) = of(found);
-            *sums.of_multiplier(a)? = rows(&by_lambda);
-            if by_sigma != Mat3::zeros() {
-                self.acting.store((a, rows(&by_sigma)))?;
-            }
-        }
-        if self.numbers.is_none() {
-            sums.reach(nodes.iter().copied(), self.slopes)?;
-            return Ok(true);
-        }
-        sums.add::<3>(&self.acting, self.slopes)?;
-        Ok(!self.acting.is_empty())
+    fn force(&self) -> (RowBlock, RowBlock) {
+        (three_rows(&self.force), three_rows(&self.force))
     }
 
-    /// The rows of a non-mortar node.
-    fn emit_own(&mut self, i: usize, emitter: &mut Emitter<N>) -> Result<()> {
-        let (given, facets, has_row) = (self.given, self.around.around(i), self.given.setup.nonmortar.has_row(i));
-        let per_gap = given.row_scale(i) / given.augmentation(i);
-        if facets.is_empty() {
-            let value = Mat3::identity() * if self.numbers.is_some() { -per_gap } else { 0.0 };
-            if has_row {
-                emitter.taker.node(Place::Multiplier(i), Place::Multiplier(i), value.as_slice());
-            }
+    fn emit_own(rows: &mut Rows<Self, N>, i: usize, emitter: &mut Emitter<N>) -> Result<()> {
+        if rows.sum_up::<FORCES>(point_rows::Found::<N>::force)? {
+            emitter.taker.sums(Place::Displacement(i), &rows.sums.blocks(0));
+        }
+        if !rows.given.setup.nonmortar.has_row(i) {
             return Ok(());
         }
-        self.row.begin();
-        for k in facets.iter().map(|&k| k as usize) {
-            match self.numbers {
-                Some(numbers) => self.own(i, k, numbers)?,
-                None => self.row.reach(&self.given.setup.nonmortar, self.around, k)?,
-            }
+        let per_gap = rows.per_gap(i);
+        let scale = per_gap / rows.given.history().areas[i];
+        rows.sum_up::<FORCES>(|Found { row, left, .. }| {
+            (three_rows(&(row * scale)), three_rows(&((row - left) * scale)))
+        })?;
+        if let Some(numbers) = rows.numbers {
+            let free = if numbers.points.is_covered[i] { rows.given.setup.nodes.free[i] } else { Mat3::zeros() };
+            let (own, held) = (rows.sums.of_multiplier(i)?, three_rows(&(Mat3::identity() - free)));
+            own.as_flattened_mut().iter_mut().zip(held.as_flattened()).for_each(|(to, n)| *to -= per_gap * n);
         }
-        if self.sum_up(|found| (found.force, found.force))? {
-            emitter.taker.sums(Place::Displacement(i), &self.row.sums.blocks(0));
-        }
-        if has_row {
-            let scale = per_gap / given.history().areas[i];
-            self.sum_up(|found| (found.row * scale, (found.row - found.left) * scale))?;
-            if let Some(numbers) = self.numbers {
-                let free = if numbers.points.is_covered[i] { given.setup.nodes.free[i] } else { Mat3::zeros() };
-                let (own, held) = (self.row.sums.of_multiplier(i)?, rows(&(Mat3::identity() - free)));
-                own.as_flattened_mut().iter_mut().zip(held.as_flattened()).for_each(|(to, n)| *to -= per_gap * n);
-            }
-            emitter.taker.sums(Place::Multiplier(i), &self.row.sums.blocks(0));
-        }
-        Ok(())
-    }
-
-    /// The rows of mortar node c.
-    fn emit_mortar(&mut self, c: usize, emitter: &mut Emitter<N>) -> Result<()> {
-        self.row.begin();
-        for k in self.around.below(c).iter().map(|&k| k as usize) {
-            match self.numbers {
-                Some(numbers) => self.mortar(c, k, numbers)?,
-                None => self.row.reach(&self.given.setup.nonmortar, self.around, k)?,
-            }
-        }
-        if self.sum_up(|found| (found.force, found.force))? {
-            let place = Place::Displacement(self.given.nodes() + c);
-            emitter.taker.sums(place, &self.row.sums.blocks(0));
-        }
+        emitter.taker.sums(Place::Multiplier(i), &rows.sums.blocks(0));
         Ok(())
     }
 }
 
-/// Its three rows.
-fn rows(of: &Mat3) -> RowBlock {
+/// Its rows.
+fn three_rows(of: &Mat3) -> RowBlock {
     std::array::from_fn(|i| if i < 3 { [of[(i, 0)], of[(i, 1)], of[(i, 2)], 0.0] } else { [0.0; 4] })
 }
 
@@ -194,9 +141,5 @@ pub fn blocks<const N: usize>(
     let (surfaces, moves) = (given.setup.surfaces(), given.setup.effects.moves());
     let around = Around::of(surfaces, moves, pairs, numbers.map(|numbers| numbers.points))?;
     let slopes = Slopes::of((surfaces, &around, moves, false), numbers.map(|n| (n, Along::All)))?;
-    let (row, acting, slopes, around) = (Gathered::of(surfaces)?, Vec::new(), &slopes, &around);
-    let mut rows = Rows { given, around, numbers, slopes, row, acting };
-    (0..given.nodes()).try_for_each(|i| rows.emit_own(i, emitter))?;
-    let mortar = if moves { given.setup.mortar.len() } else { 0 };
-    (0..mortar).try_for_each(|c| rows.emit_mortar(c, emitter))
+    point_rows::emit::<Found, N>(given, (&around, &slopes), numbers, emitter)
 }

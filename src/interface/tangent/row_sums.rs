@@ -2,7 +2,6 @@
 //! A of the facets that reach it. The sum is in place before any of it leaves: an entry of the tangent is written once,
 //! however many A it has.
 
-use super::around::Around;
 use super::emission::{RowBlock, RowBlocks};
 use super::slopes::Slopes;
 use crate::error::Result;
@@ -90,45 +89,6 @@ impl RowSums {
     /// The blocks; of the rows that begin with this one.
     pub fn blocks(&self, first: usize) -> RowBlocks<'_> {
         RowBlocks { columns: &self.columns, blocks: &self.blocks, places: &self.places, nodes: self.nodes, first }
-    }
-}
-
-/// The A of the facets around a node, each with what is found of it: with friction and without it they are not the same.
-pub struct Gathered<T> {
-    pub sums: RowSums,
-    /// In the order of their columns, which come before all others.
-    pub of: Vec<usize>,
-    pub acts: Vec<T>,
-}
-
-impl<T: Copy + Default> Gathered<T> {
-    /// Of no node yet.
-    pub fn of(surfaces: (&Surface, &Surface)) -> Result<Gathered<T>> {
-        Ok(Gathered { sums: RowSums::of(surfaces)?, of: Vec::new(), acts: Vec::new() })
-    }
-
-    /// Begins with another node.
-    pub fn begin(&mut self) {
-        self.sums.begin();
-        self.of.clear();
-        self.acts.clear();
-    }
-
-    /// What is found of A.
-    #[inline]
-    pub fn at(&mut self, a: usize) -> Result<&mut T> {
-        let place = self.sums.multiplier(a)?;
-        if place == self.of.len() {
-            self.of.store(a)?;
-            self.acts.store(T::default())?;
-        }
-        Ok(&mut self.acts[place])
-    }
-
-    /// The columns of all A of the k-th facet around.
-    pub fn reach(&mut self, one: &Surface, around: &Around, k: usize) -> Result<()> {
-        let nodes = one.host_nodes(around.facets[k]).iter().filter(|b| one.has_row(**b));
-        nodes.copied().try_for_each(|a| self.at(a).map(|_| ()))
     }
 }
 
