@@ -14,6 +14,7 @@ fn main() {
     let abi = if major == "0" { format!("0.{minor}") } else { major };
     if variable("CARGO_CFG_TARGET_OS") == "linux" {
         println!("cargo::rustc-cdylib-link-arg=-Wl,-soname,libstickslip.so.{abi}");
+        by_its_soname(&format!("libstickslip.so.{abi}"));
     }
     let compiler = said(Command::new(variable("RUSTC")).arg("--version")).unwrap_or(UNKNOWN.into());
     println!("cargo::rustc-env=STICKSLIP_BUILD_COMMIT={}", commit());
@@ -21,6 +22,16 @@ fn main() {
     println!("cargo::rustc-env=STICKSLIP_BUILD_PROFILE={}-O{}", variable("PROFILE"), variable("OPT_LEVEL"));
     println!("cargo::rustc-env=STICKSLIP_BUILD_FEATURES={}", features());
     println!("cargo::rustc-env=STICKSLIP_BUILD_COMPILER={}", compiler.replace(' ', "-"));
+}
+
+/// A link of this name beside the shared library that cargo leaves, so that a program which was linked with it finds it there.
+/// It may be there already, and where links cannot be made nothing is lost: hence no error.
+fn by_its_soname(name: &str) {
+    // OUT_DIR is PROFILE/build/stickslip-HASH/out.
+    if let Some(profile) = Path::new(&variable("OUT_DIR")).ancestors().nth(3) {
+        #[cfg(unix)]
+        let _ = std::os::unix::fs::symlink("libstickslip.so", profile.join(name));
+    }
 }
 
 fn variable(name: &str) -> String {

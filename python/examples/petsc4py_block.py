@@ -27,6 +27,8 @@ SIZE, YOUNG = np.array([2.0, 2.0, 1.0]), 1000.0
 # Newton's tolerance, and ten times it for the contact, over scales of its own.
 RTOL, CONTACT_RTOL = 1e-11, 1e-10
 OWN, ELSEWHERE = stickslip.constants["NODE_OWN"], stickslip.constants["NODE_ELSEWHERE"]
+# Of the time, in which pressing takes 1 and pushing 1.
+SHORTEST = 1e-3
 # Rings of facets that a part has around its own nodes: docs/plug_in.md, section 9.
 RINGS = 3
 STATES = tuple(stickslip.constants["STATE_" + name] for name in ("GAP", "STICK", "SLIP"))
@@ -108,7 +110,8 @@ class Part:
         self.own = np.isin(nodes, own)
         self.displacements = 3 * nodes[:, None] + np.arange(3)
         self.multipliers = n_displacements + self.displacements
-        self.base = np.array([(-1.0, -1, 0), (3, -1, 0), (3, 3, 0), (-1, 3, 0)])
+        left, right = min(-1.0, push - 0.5), max(3.0, push + 2.5)  # the block stays on it
+        self.base = np.array([(left, -1, 0), (right, -1, 0), (right, 3, 0), (left, 3, 0)])
         block = stickslip.Surface(X[nodes], np.searchsorted(nodes, ring), self.displacements, self.multipliers,
                                   np.where(self.own, OWN, ELSEWHERE).astype(np.int32))
         self.X = X[nodes]
@@ -201,19 +204,54 @@ snes.setFromOptions()
 problem.x.setValues(part.multipliers[part.own].ravel().astype(PETSc.IntType),
                     part.face.initial_multipliers()[part.own].ravel())
 problem.x.assemble()
-for step in range(1, steps + 1):
-    problem.pressed, problem.moved = load * min(2 * step / steps, 1), push * max(2 * step / steps - 1, 0)
+
+
+def accepted(point):
+    """Whether every process' part takes the step; if one does not, none has."""
+    try:
+        part.face.commit(*point)
+        refused = False
+    except stickslip.Error as why:
+        refused = True
+        print(f"rank {rank}: {why}", file=sys.stderr)
+    if not over_ranks([refused], "max")[0]:
+        return True
+    if not refused:
+        part.face.rollback()
+    return False
+
+
+def attempt(time):
+    """Newton's method for the loads of this time, from what the step before has left, and the commit: whether both go."""
+    problem.pressed, problem.moved = load * min(time, 1), push * max(time - 1, 0)
     snes.solve(None, problem.x)
-    if snes.getConvergedReason() <= 0:  # a code of your own would try a smaller step
-        raise SystemExit(f"step {step} does not converge: {snes.getConvergedReason()}")
+    if snes.getConvergedReason() <= 0:
+        return False
     problem.function(snes, problem.x, snes.getFunction()[0])  # the forces of the solution
     point = part.point(problem.values(problem.x))
-    states = part.face.states(*point).state[part.own]  # before the commit
-    part.face.commit(*point)
-    pressed = point[2][part.own][:, 2]
+    problem.states = part.face.states(*point).state[part.own]  # before the commit
+    return accepted(point)
+
+
+def advance(begin, end):
+    """From one time to another, in halves where it does not go at once: the iterations of all that went."""
+    problem.x.copy(before := problem.x.duplicate())
+    if attempt(end):
+        return snes.getIterationNumber()
+    if end - begin < SHORTEST:
+        raise SystemExit(f"time {begin:g}: no step is short enough (SNES' last reason: {snes.getConvergedReason()})")
+    before.copy(problem.x)
+    middle = (begin + end) / 2
+    PETSc.Sys.Print(f"cut back to {middle:g}")
+    return advance(begin, middle) + advance(middle, end)
+
+
+for step in range(1, steps + 1):
+    iterations = advance(2 * (step - 1) / steps, 2 * step / steps)
+    pressed = problem.values(problem.x)[part.multipliers[part.own]][:, 2]
     least, most = over_ranks([-pressed.min(), pressed.max()], "max") * (-1, 1)
-    gap, stick, slip = over_ranks([(states == state).sum() for state in STATES], "sum").astype(int)
-    PETSc.Sys.Print(f"step {step}: {snes.getIterationNumber()} iterations, {gap} gap {stick} stick {slip} slip, "
+    gap, stick, slip = over_ranks([(problem.states == state).sum() for state in STATES], "sum").astype(int)
+    PETSc.Sys.Print(f"step {step}: {iterations} iterations, {gap} gap {stick} stick {slip} slip, "
                     f"load {problem.pressed:.12g} contact {problem.contact[2]:.12g} {problem.contact[0]:.12g} "
                     f"reaction {problem.reaction[0]:.12g} multipliers along z {least:.16g} {most:.16g}")
 if options.hasName("output"):

@@ -110,7 +110,7 @@ def two_rows(x):
 
 # How an array is spoilt, and what is raised. Of an array of integers the last two mean nothing.
 SPOILT = {
-    "dtype": (lambda x: x.astype(np.float32 if x.dtype.kind == "f" else np.int16), TypeError),
+    "dtype": (lambda x: x.astype(np.float32), TypeError),
     "byte order": (lambda x: x.astype(x.dtype.newbyteorder()), TypeError),
     "order": (two_rows, ValueError),
     "stride": (lambda x: np.repeat(x, 2, axis=0)[::2], ValueError),
@@ -170,8 +170,9 @@ def test_bad_arrays_are_refused_by_name(basis, how):
                 if how in ("NaN", "infinite") and array.dtype.kind != "f" or name in ("integers", "reals", "coordinates") \
                         and how in ("shape", "order"):
                     continue  # a history and coordinates say their own length
-                with pytest.raises(kind, match=f"^{name}:"):
+                with pytest.raises(stickslip.Error, match=f"^{name}:") as caught:
                     method(**{**good, name: spoil(array)})
+                assert isinstance(caught.value, kind)
                 tried += 1
     assert tried > 40
 
@@ -212,6 +213,21 @@ def test_lists_are_not_cut_off(lines):
         stickslip.Interface(*lines.arguments, modulus=1.0, model="plane", mu=None)
     with pytest.raises(ValueError, match=r"^size: 3, and there is an equation \d+; at least"):
         stickslip.Plan(lines.interface, lines.x1, lines.x2, 3)
+
+
+def test_integers_of_32_bits_are_taken(lines):
+    first, second = lines.arguments
+    taken = stickslip.Surface(first.coordinates, first.facet_nodes.reshape(-1, 2), first.equations.astype(np.int32),
+                              first.multiplier_equations.astype(np.int32))
+    with stickslip.Interface(taken, second, **lines.options) as face:
+        point = lines.pressed()
+        assert (face.tangent(*point, lines.size) != lines.interface.tangent(*point, lines.size)).nnz == 0
+
+
+def test_a_closed_interface_refuses_in_the_same_family(lines):
+    lines.interface.close()
+    with pytest.raises(stickslip.Error, match="closed"):
+        lines.interface.rollback()
 
 
 def test_lists_are_converted(lines):

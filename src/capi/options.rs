@@ -124,7 +124,7 @@ pub const STICKSLIP_DECISION_NODES: i32 = 0;
 /// Each point of an overlap is closed or open (docs/formulation.md 16): the border of the contact lies inside facets. modulus is needed,
 /// and is E* of both bodies together: 1 / E* = (1 - nu1^2) / E1 + (1 - nu2^2) / E2, of a rigid one without its part. The answer depends
 /// on it, by what vanishes with the facets' size. An augmentation beside it takes the place of r = 0.9 E* / h_A alone; r is then part of the
-/// answer, too. With STICKSLIP_BASIS_DUAL, and STICKSLIP_FRICTION_NONE with any weights, or STICKSLIP_FRICTION_COULOMB with STICKSLIP_WEIGHTS_COMMITTED
+/// answer, too. With STICKSLIP_BASIS_DUAL, and STICKSLIP_FRICTION_NONE with STICKSLIP_WEIGHTS_CURRENT, COMMITTED or REFERENCE, or STICKSLIP_FRICTION_COULOMB with STICKSLIP_WEIGHTS_COMMITTED
 /// or REFERENCE, and not with STICKSLIP_SLIP_PAPER. UNSUPPORTED: all others of these; laws of one's own; STICKSLIP_NORMALS_CURRENT; offsets with STICKSLIP_WEIGHTS_CURRENT;
 /// STICKSLIP_FORM_AUGMENTED, STICKSLIP_INTEGRATION_ELEMENTS and HYBRID, weak_coverage, quadratic facets, analytic mortar sides, sums of
 /// handles, parts (owned), condensed systems.

@@ -14,3 +14,4 @@ mod lines;
 mod normals;
 mod pair_state;
 mod quadratic;
+mod soname;

@@ -1,9 +1,13 @@
-"""Arrays of Python as the library reads and writes them: checked, and used without a copy where they fit."""
+"""Arrays of Python as the library reads and writes them: checked, and used without a copy where they fit.
+
+What is refused here is of the same family as what the library refuses: an :class:`Error`, and a ValueError or TypeError too.
+"""
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ._library import ffi
+from .errors import InvalidSize, InvalidValue, NotFinite, WrongType
 
 _KINDS = {np.dtype(np.float64): "double[]", np.dtype(np.int64): "int64_t[]", np.dtype(np.int32): "int32_t[]",
           np.dtype(np.uint8): "uint8_t[]"}
@@ -17,9 +21,9 @@ def converted(name: str, value: ArrayLike, dtype=np.float64) -> np.ndarray:
     try:
         array = np.array(value)
     except ValueError as error:  # lists of unequal lengths
-        raise ValueError(f"{name}: {error}") from None
+        raise InvalidSize(f"{name}: {error}") from None
     if array.size and array.dtype.kind not in ("iu" if integers else "iuf"):
-        raise TypeError(f"{name}: {array.dtype}, {'integers' if integers else 'numbers'} are needed")
+        raise WrongType(f"{name}: {array.dtype}, {'integers' if integers else 'numbers'} are needed")
     return array.astype(dtype)
 
 
@@ -27,7 +31,7 @@ def coordinates(value: ArrayLike) -> np.ndarray:
     """Coordinates of nodes, which say by their shape how many there are, in space or in the plane."""
     value = converted("coordinates", value)
     if value.ndim != 2 or value.shape[1] not in (2, 3):
-        raise ValueError(f"coordinates: shape {value.shape}, (n, 3) or (n, 2) is needed")
+        raise InvalidSize(f"coordinates: shape {value.shape}, (n, 3) or (n, 2) is needed")
     return given("coordinates", value, value.shape)
 
 
@@ -36,22 +40,26 @@ def _check_shape(name: str, value: np.ndarray, shape: tuple) -> None:
     row = (int(np.prod(shape)),)
     if value.shape not in (shape, row):
         allowed = f"{shape}" if shape == row else f"{shape} or {row}"
-        raise ValueError(f"{name}: shape {value.shape}, {allowed} is needed")
+        raise InvalidSize(f"{name}: shape {value.shape}, {allowed} is needed")
 
 
 def given(name: str, value: ArrayLike, shape: tuple, dtype=np.float64) -> np.ndarray:
     """An input of this shape, or with as many entries in one row.
 
-    Lists are converted. An ndarray has to fit as it is: a silent copy in each iteration would cost unseen.
+    Lists are converted, and so are integers of another length, as those of 32 bits that PETSc numbers its unknowns with: they are
+    read once. Else an ndarray has to fit as it is: a silent copy in each iteration would cost unseen.
     """
     value = converted(name, value, dtype)
+    integers = np.dtype(dtype).kind == "i" and value.dtype.kind in "iu"
+    if integers and value.dtype.isnative and np.can_cast(value.dtype, dtype):
+        value = value.astype(dtype, copy=False)
     if value.dtype != dtype:
-        raise TypeError(f"{name}: dtype {value.dtype}, {np.dtype(dtype)} is needed")
+        raise WrongType(f"{name}: dtype {value.dtype}, {np.dtype(dtype)} is needed")
     if not value.flags.c_contiguous:
-        raise ValueError(f"{name}: not in C order, numpy.ascontiguousarray makes it so")
+        raise InvalidValue(f"{name}: not in C order, numpy.ascontiguousarray makes it so")
     _check_shape(name, value, shape)
     if np.dtype(dtype).kind == "f" and not np.isfinite(value).all():
-        raise ValueError(f"{name}: entry {int(np.argmin(np.isfinite(value).ravel()))} is NaN or infinite")
+        raise NotFinite(f"{name}: entry {int(np.argmin(np.isfinite(value).ravel()))} is NaN or infinite")
     return value
 
 
@@ -60,12 +68,12 @@ def output(name: str, value, shape: tuple, dtype=np.float64) -> np.ndarray:
     if value is None:
         return np.empty(shape, dtype)
     if not isinstance(value, np.ndarray):
-        raise TypeError(f"{name}: {type(value).__name__}, an ndarray is needed")
+        raise WrongType(f"{name}: {type(value).__name__}, an ndarray is needed")
     if value.dtype != dtype or not value.flags.c_contiguous:
-        raise TypeError(f"{name}: {np.dtype(dtype)} in C order is needed")
+        raise WrongType(f"{name}: {np.dtype(dtype)} in C order is needed")
     _check_shape(name, value, shape)
     if not value.flags.writeable:
-        raise ValueError(f"{name}: read-only, and the call writes to it")
+        raise InvalidValue(f"{name}: read-only, and the call writes to it")
     return value
 
 

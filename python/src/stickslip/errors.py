@@ -22,6 +22,10 @@ class Error(Exception):
             self.status = status
 
 
+class WrongType(Error, TypeError):
+    """An argument of another type than the call needs, which the package finds before the library is asked."""
+
+
 # Where a class of Python says the same, the exception is one of it too.
 _ALSO = {
     "INVALID_SIZE": ValueError,
@@ -53,7 +57,7 @@ def _class(name: str, status: int) -> type[Error]:
 statuses = _statuses()
 by_status: dict[int, type[Error]] = {status: _class(name, status) for name, status in statuses.items()}
 globals().update({made.__name__: made for made in by_status.values()})
-__all__ = ["Error", "by_status", "exception_of", "statuses", *(made.__name__ for made in by_status.values())]
+__all__ = ["Error", "WrongType", "by_status", "exception_of", "statuses", *(made.__name__ for made in by_status.values())]
 
 
 def exception_of(status: int) -> type[Error]:

@@ -14,7 +14,7 @@ from ._heat import Heats
 from ._inspection import Inspection
 from ._laws import Laws
 from ._library import call, ffi, lib, value_of
-from .errors import Error
+from .errors import Error, InvalidValue
 from .surface import Surface
 
 if TYPE_CHECKING:
@@ -80,7 +80,7 @@ class Interface(Heats, Inspection, Laws):
 
     def _call(self, name: str, *arguments) -> None:
         if self._handle == ffi.NULL:
-            raise ValueError("the interface is closed")
+            raise InvalidValue("the interface is closed")
         try:
             call("interface_" + name, self._handle, *arguments)
         except Error as refused:
