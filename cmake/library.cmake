@@ -39,6 +39,14 @@ set(remapped "build.rustflags=['--remap-path-prefix=${cargo_home}=/cargo', '--re
 # What is not marked to be inlined is inlined where its body is small, as for a size that has to be kept: the library is a tenth
 # smaller. Kernels are marked, and stay as they are. A debug build inlines next to nothing anyhow.
 set(small_library -C llvm-args=-inline-threshold=60)
+# Functions with the same code, as interfaces of one and of three multipliers a node often have, are kept once where the linker of rustc
+# can do so (lld, gold, mold).
+file(WRITE "${PROJECT_BINARY_DIR}/fold.rs" "")
+execute_process(COMMAND rustc --crate-type cdylib -C link-arg=-Wl,--icf=all --out-dir "${PROJECT_BINARY_DIR}" "${PROJECT_BINARY_DIR}/fold.rs"
+  RESULT_VARIABLE cannot_fold OUTPUT_QUIET ERROR_QUIET)
+if(NOT cannot_fold)
+  list(APPEND small_library -C link-arg=-Wl,--icf=all)
+endif()
 
 # All of cargo's features, or a list of those that are wanted: docs/abi.md says what each adds.
 set(known_features analytic condensed heat laws lines offsets points quadratic rigid)
