@@ -28,14 +28,24 @@ static PetscBool any_at_points(const Contact *contact)
   return PETSC_FALSE;
 }
 
+static PetscBool any_found_anew(const Contact *contact)
+{
+  for (PetscInt i = 0; i < contact->n_interfaces; i++)
+    if (contact->interfaces[i].options.weights == STICKSLIP_WEIGHTS_CURRENT) return PETSC_TRUE;
+  return PETSC_FALSE;
+}
+
 /* What may be behind it, and what to do instead. */
 static const char *cause(const Output *output, int kind)
 {
   if (kind == ENERGY_TIME)
     return "Bodies of finite strain keep their energy in short steps only: take shorter ones until `numerical` in energy.csv stays small.";
-  if (kind == ENERGY_IMPACT)
+  if (kind == ENERGY_IMPACT && any_found_anew(output->contact))
     return "Nodes that meet stop each other within a step, and their motion is lost; weights that are found anew take some on curved surfaces, too. See "
            "whether shorter steps and finer facets change it: contact_work and friction_dissipation in energy.csv.";
+  if (kind == ENERGY_IMPACT)
+    return "Nodes that meet stop each other within a step, and their motion is lost. See whether shorter steps and finer facets change it: contact_work "
+           "and friction_dissipation in energy.csv.";
   if (any_at_points(output->contact))
     return "With `decision: points` it may, whatever the weights: a node's gap is a mean over the facets around it, so that forces are not quite those of "
            "what contact stores (contact_store). Finer facets give less. All of it: contact_gain in energy.csv.";
