@@ -25,6 +25,7 @@ typedef struct {
   PetscBool tried;     /* a step has been solved, or tried */
   PetscBool offsets;   /* the last one could not begin: the library refused the offsets of its time */
   PetscBool converged; /* the last attempt had, so that its commit was refused if the library refused */
+  PetscBool late;      /* it came after energy was wrong already: no shorter step helps */
 } Run;
 
 /* restart.c: after a step, if it is due (`last`: the run has ended); and before the first one, if the scene names a file: ends the run

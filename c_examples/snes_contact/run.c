@@ -58,6 +58,7 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
   PetscFunctionBegin;
   model->physics.t = t;
   run->tried       = PETSC_TRUE;
+  run->late        = PETSC_FALSE;
   run->converged   = PETSC_FALSE;
   PetscCall(timed_begin(&model->physics, t, &changed));
   if (changed) {
@@ -82,14 +83,17 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
   if (*done) PetscCall(remote_check(&model->physics, newton->why, sizeof(newton->why)));
   if (*done && !newton->why[0]) {
     PetscCall(slide_check(&model->contact, &newton->slid, newton->why, sizeof(newton->why)));
+    if (!newton->why[0]) PetscCall(kept_check(&model->contact, newton->why, sizeof(newton->why)));
     newton->refused_commit = (PetscBool)(newton->why[0] != 0);
   }
   if (*done && newton->why[0]) *done = PETSC_FALSE;
   run->converged = *done;
   if (*done) {
     PetscCall(summary_step(&model->output, run->summary, run->step + 1, PETSC_TRUE, asked, last));
-    PetscCall(contact_commit(&model->contact, &refused));
-    *done = (PetscBool)!refused;
+    PetscCall(energy_check(&model->output, &run->late, newton->why, sizeof(newton->why)));
+    newton->refused_commit = (PetscBool)(newton->why[0] != 0);
+    if (!newton->why[0]) PetscCall(contact_commit(&model->contact, &refused));
+    *done = (PetscBool)(!refused && !newton->why[0]);
     PetscCall(summary_settle_step(&model->output, run->summary, *done));
     if (refused) {
       newton->refused_commit = PETSC_TRUE;
@@ -118,6 +122,7 @@ static PetscErrorCode accept(Model *model, Run *run)
   PetscCall(heat_accept(&model->heat));
   equilibrium_accept(&model->contact);
   PetscCall(slide_accept(&model->contact));
+  PetscCall(kept_accept(&model->contact));
   condensed_accept(&model->contact);
   PetscCall(contact_share_out(&model->contact));
   PetscCall(solver_refresh_pattern(&model->solve));
@@ -203,7 +208,7 @@ PetscErrorCode run(Model *model, int *exit_code)
       PetscCall(restart_write(model, &run, (PetscBool)(t == steps->end)));
     } else {
       run.n_cutbacks++;
-      failed = (PetscBool)!step_size_cut(steps, &run.size, t - run.past.t_last, &model->solve.newton);
+      failed = (PetscBool)(run.late || !step_size_cut(steps, &run.size, t - run.past.t_last, &model->solve.newton));
     }
   }
   if (failed) {

@@ -44,6 +44,7 @@ from roles import roles  # noqa: E402
 from slider import slider, slider_fine  # noqa: E402
 from sliding import sliding  # noqa: E402
 from scene import Driver, SceneError  # noqa: E402
+from sound import sound  # noqa: E402
 from springs import springs  # noqa: E402
 from stepping import stepping  # noqa: E402
 from thrown import thrown  # noqa: E402
@@ -99,6 +100,7 @@ GROUPS = {
     "sliding": sliding,
     "slider": slider,
     "slider_fine": slider_fine,  # minutes; not among the tests
+    "sound": sound,
     "springs": springs,
     "stepping": stepping,
     "thrown": thrown,

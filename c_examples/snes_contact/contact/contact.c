@@ -2,19 +2,23 @@
  * nodes are gathered from their owners, forces are sent back and added. */
 #include "contact/contact.h"
 
-/* Adds the forces of all parts to f_local, and their squares, once a node, to those of the model's parts. */
-static PetscErrorCode add_forces(Physics *physics, const ContactPart *part, Vec f_local)
+/* Adds the forces of all parts to f_local, and once a node their squares to those of the model's parts, and what passes between the sides. */
+static PetscErrorCode add_forces(Physics *physics, Interface *interface, Vec f_local)
 {
-  const PetscInt d = part->dimension;
+  ContactPart   *part = &interface->part;
+  const PetscInt d    = part->dimension;
   PetscScalar   *total;
   PetscFunctionBegin;
+  PetscCall(PetscArrayzero(interface->between, 4));
   PetscCall(VecZeroEntries(physics->f_sum));
   PetscCall(contact_scatter(part, part->forces, physics->f_sum, MPIU_SUM));
   PetscCall(PetscMalloc1(d * (part->n1 + part->n2) + part->components * part->n1, &total));
   PetscCall(contact_fetch(part->sf, physics->f_sum, total));
   for (PetscInt k = 0; k < d * (part->n1 + part->n2); k++) {
-    if (part->counts[k / d])
-      physics->parts.squares[N_SQUARES * part->piece[k / d] + SQUARES_CONTACT] += PetscSqr(PetscAbsScalar(total[k]));
+    if (!part->counts[k / d]) continue;
+    physics->parts.squares[N_SQUARES * part->piece[k / d] + SQUARES_CONTACT] += PetscSqr(PetscAbsScalar(total[k]));
+    interface->between[k % d] += PetscRealPart(total[k]);
+    interface->between[3] += PetscAbsScalar(total[k]);
   }
   PetscCall(PetscFree(total));
   PetscCall(VecAXPY(f_local, 1, physics->f_sum));
@@ -38,7 +42,7 @@ PetscErrorCode contact_forces(Contact *contact, Vec f_local, PetscInt *status)
                                              MORTAR_OF(part, part->forces), MULTIPLIERS_OF(part, part->forces));
     part->processor += work_clock();
     PetscCall(contact_agree(contact, interface, refused, status));
-    if (!*status) PetscCall(add_forces(contact->physics, part, f_local));
+    if (!*status) PetscCall(add_forces(contact->physics, interface, f_local));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -156,9 +156,13 @@ typedef struct {
   Halo           halo;
   double         friction_work;           /* of all ranks, up to the last converged step */
   double         young, largest_traction; /* of the softer body; up to the last converged step */
+  double         confined;                /* modulus of the softer body where it cannot widen; 0: both are rigid */
+  PetscReal      between[4];              /* forces on the nodes that this rank counts: their sum, and that of their sizes */
   char           modulus_from[64];        /* with decisions at points: what the modulus of both bodies is made of */
   stickslip_equilibrium equilibrium;      /* of this part, as last judged (equilibrium.c) */
   Frozen                slide, turn;
+  double                kept;                 /* with persistent weights: the deepest overlap at the start, over a facet's edge */
+  Frozen                sunk;                 /* likewise: what it has grown by since */
 } Interface;
 
 /* How the search for equilibrium goes (equilibrium.c) */
@@ -428,11 +432,17 @@ PetscErrorCode equilibrium_judge(Contact *contact, PetscReal rtol, PetscBool *ho
 void           equilibrium_restart(Contact *contact);
 void           equilibrium_accept(Contact *contact);
 
+/* sound.c: at the place of the last evaluation, in equilibrium: what no contact can be, in words; empty: nothing */
+PetscErrorCode contact_sound(Contact *contact, char why[], size_t length);
+
 /* slide.c */
 PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t length);
 PetscErrorCode slide_accept(Contact *contact);
-/* kept.c: what persistent weights leave of an overlap at the start; after contact_gather() */
-PetscErrorCode kept_tell(const Contact *contact, const Interface *interface);
+/* kept.c: what persistent weights leave of overlaps: of that at the start, after contact_gather(); by how much they have grown since, at a
+ * converged state: why the step does not count; and told, where it does */
+PetscErrorCode kept_tell(const Contact *contact, Interface *interface);
+PetscErrorCode kept_check(Contact *contact, char why[], size_t length);
+PetscErrorCode kept_accept(Contact *contact);
 
 /* The library's status as a PETSc error, where a refusal is not something to recover from. */
 #define PetscCallStickslip(...)                                                                                        \

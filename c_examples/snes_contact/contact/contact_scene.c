@@ -1,17 +1,20 @@
 /* Interfaces as the scene describes them: surfaces, law, form, and which multiplier components are unknowns at all. */
 #include "contact/contact.h"
 
-/* of the softest body that an interface's nodes belong to */
+/* of the softest body that an interface's nodes belong to: E, and the modulus of what cannot widen */
 static PetscErrorCode find_young(const Contact *contact, Interface *interface)
 {
-  PetscReal young = PETSC_MAX_REAL; /* what a wholly prescribed, so rigid surface counts as */
+  PetscReal least[2] = {PETSC_MAX_REAL, PETSC_MAX_REAL}; /* what a wholly prescribed, so rigid surface counts as */
   PetscFunctionBegin;
   for (PetscInt k = 0; k < interface->n1 + interface->n2; k++) {
     const PetscInt body = mesh_body_of(contact->mesh, interface->nodes[k]);
-    if (interface->prescribed[k] != 7 && !contact->mesh->bodies[body].rigid) young = PetscMin(young, contact->physics->materials[body].young);
+    if (interface->prescribed[k] == 7 || contact->mesh->bodies[body].rigid) continue;
+    least[0] = PetscMin(least[0], contact->physics->materials[body].young);
+    least[1] = PetscMin(least[1], material_confined(&contact->physics->materials[body]));
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &young, 1, MPIU_REAL, MPIU_MIN, PETSC_COMM_WORLD));
-  interface->young = young == PETSC_MAX_REAL ? contact->physics->materials[0].young : young; /* nothing moves */
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, least, 2, MPIU_REAL, MPIU_MIN, PETSC_COMM_WORLD));
+  interface->young    = least[0] == PETSC_MAX_REAL ? contact->physics->materials[0].young : least[0]; /* nothing moves */
+  interface->confined = least[1] == PETSC_MAX_REAL ? 0 : least[1];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -140,21 +143,8 @@ static const PetscReal TURN_TOLD = 0.03;
 /* Keys by which surfaces are beside their meshes: with persistent weights an overlap by them would count as closed. */
 static const char *const OFFSETS[] = {"offset", "offset_at", "round"};
 
-/* Weights where the scene does not say: those by which contact gives moving bodies no energy (docs/dynamics.md), where they go with
- * what else the scene has. */
-static PetscInt usual_weights(Scene *scene, const Physics *physics, const Interface *interface, PetscInt normals, PetscInt slip)
-{
-  if (!physics->dynamics || normals == STICKSLIP_NORMALS_CURRENT || slip == STICKSLIP_SLIP_PAPER ||
-      decision_is_points(interface))
-    return STICKSLIP_WEIGHTS_CURRENT;
-  for (size_t k = 0; k < sizeof(OFFSETS) / sizeof(OFFSETS[0]); k++) {
-    if (scene_has(scene, interface->name, OFFSETS[k])) return STICKSLIP_WEIGHTS_CURRENT;
-  }
-  return STICKSLIP_WEIGHTS_PERSISTENT;
-}
-
 /* `basis`, `normals`, `weights`, `slip`, `form`, `new_contact`, the augmentation and the search. */
-static void read_method(Scene *scene, const Physics *physics, Interface *interface)
+static void read_method(Scene *scene, Interface *interface)
 {
   static const char *const weights[]      = {"current", "committed", "reference", "persistent", NULL};
   static const char *const slips[]        = {"objective", "increment", "paper", NULL};
@@ -165,7 +155,7 @@ static void read_method(Scene *scene, const Physics *physics, Interface *interfa
   static const char *const normals[]      = {"committed", "current", NULL};
   stickslip_options       *options        = &interface->options;
   const char              *name           = interface->name;
-  PetscInt  basis = STICKSLIP_BASIS_STANDARD, normal = STICKSLIP_NORMALS_COMMITTED, weight,
+  PetscInt  basis = STICKSLIP_BASIS_STANDARD, normal = STICKSLIP_NORMALS_COMMITTED, weight = STICKSLIP_WEIGHTS_CURRENT,
            slip = STICKSLIP_SLIP_OBJECTIVE, form = STICKSLIP_FORM_MULTIPLIER,
            new_contact = STICKSLIP_NEW_CONTACT_FRICTIONLESS, row_scale = STICKSLIP_ROW_SCALE_FORCE;
   PetscReal augmentation = 0, modulus = 0, distance = 0, weak_coverage = 0, turn_max = 0, coverage_min = options->coverage_min;
@@ -181,7 +171,6 @@ static void read_method(Scene *scene, const Physics *physics, Interface *interfa
   scene_choice(scene, name, "form", forms, &form);
   scene_choice(scene, name, "basis", bases, &basis);
   scene_choice(scene, name, "normals", normals, &normal);
-  weight = usual_weights(scene, physics, interface, normal, slip);
   scene_choice(scene, name, "weights", weights, &weight);
   for (size_t k = 0; k < sizeof(OFFSETS) / sizeof(OFFSETS[0]) && weight == STICKSLIP_WEIGHTS_PERSISTENT; k++) {
     if (scene_has(scene, name, OFFSETS[k]))
@@ -318,7 +307,7 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact)
     mesh_rotate_vector(contact->mesh, interface->law.direction);
     read_effects(scene, interface);
     decision_read(scene, interface);
-    read_method(scene, contact->physics, interface);
+    read_method(scene, interface);
     read_accuracy(scene, interface);
     PetscCall(offsets_read(scene, contact->physics, interface));
   }

@@ -1,10 +1,13 @@
 /* With `weights: persistent` what overlaps at the start of a step counts as closed (docs/formulation.md 4.9), and what the surfaces overlap
- * by at t = 0 as well: it presses nothing, and stays. A step leaves overlaps of the second order behind, which are meant; one of the mesh
- * is a fit, or a mistake, so that it is told by its node and its size. */
+ * by at t = 0 as well: it presses nothing, and stays. An overlap of the mesh is a fit, or a mistake, so that it is told by its node and its size.
+ * A step leaves overlaps of the second order behind. Where surfaces slide on, they add up, one way: a body sinks, however short the steps.
+ * That is told, too, and stops the run where it is much. */
 #include "contact/contact.h"
 
 /* What is told, over the longest edge around the node: coordinates of single precision are off by as much on a mesh of a hundred facets. */
 static const PetscReal KEPT_TOLD = 1e-5;
+/* By how much overlaps may have grown since the start, over the longest edge, before that is told; and before no step counts. */
+static const PetscReal SUNK_TOLD = 0.01, SUNK_MOST = 0.1;
 
 /* Of the non-mortar facets of the part around each of its nodes. */
 static void longest_edges(const ContactPart *part, PetscReal longest[])
@@ -24,45 +27,96 @@ static void longest_edges(const ContactPart *part, PetscReal longest[])
   }
 }
 
-/* The deepest overlap of this part's nodes over the edges there; `what`: its place, its size, the node's number */
-static PetscErrorCode measure(const ContactPart *part, PetscReal *most, PetscReal what[5])
+/* The deepest overlap of an interface: over the edges there, and itself; at which node, which is here in the undeformed body */
+typedef struct {
+  PetscReal part, depth, X[3];
+  PetscInt  vertex;
+} Overlap;
+
+/* At the place of the last evaluation, or commit. On every rank. */
+static PetscErrorCode measure(const Mesh *mesh, const ContactPart *part, Overlap *overlap)
 {
   double    *results;
-  PetscReal *edges;
+  PetscReal *edges, most = 0;
   PetscFunctionBegin;
-  if (!part->handle) PetscFunctionReturn(PETSC_SUCCESS);
+  *overlap = (Overlap){0};
   PetscCall(PetscMalloc1(N_RESULTS * part->n1, &results));
   PetscCall(PetscCalloc1(part->n1, &edges));
   PetscCall(contact_results(part, results));
   longest_edges(part, edges);
-  for (PetscInt a = 0; a < part->n1; a++) {
+  for (PetscInt a = 0; a < part->n1 && part->handle; a++) {
     const double   *result = results + N_RESULTS * a;
     const PetscReal depth  = result[RESULT_COVERAGE] > 0 ? -result[RESULT_GAP] / result[RESULT_COVERAGE] : 0;
-    if (part->owned[a] != STICKSLIP_NODE_OWN || depth <= *most * edges[a]) continue;
-    *most = depth / edges[a];
-    contact_vector(part->dimension, part->X, a, what);
-    what[3] = depth;
-    what[4] = (PetscReal)part->vertices[a];
+    if (part->owned[a] != STICKSLIP_NODE_OWN || depth <= most * edges[a]) continue;
+    most     = depth / edges[a];
+    *overlap = (Overlap){.part = most, .depth = depth, .vertex = part->vertices[a]};
+    contact_vector(part->dimension, part->X, a, overlap->X);
   }
   PetscCall(PetscFree(edges));
   PetscCall(PetscFree(results));
+  PetscCall(contact_largest(mesh, &most, sizeof(*overlap), overlap));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode kept_tell(const Contact *contact, const Interface *interface)
+/* What is tied keeps its gaps with any weights. */
+static PetscBool keeps(const Interface *interface)
 {
-  PetscReal most = 0, what[5] = {0};
+  return (PetscBool)(interface->options.weights == STICKSLIP_WEIGHTS_PERSISTENT && interface->options.friction != STICKSLIP_FRICTION_TIED);
+}
+
+PetscErrorCode kept_tell(const Contact *contact, Interface *interface)
+{
+  Overlap overlap;
   PetscFunctionBegin;
-  if (interface->options.weights != STICKSLIP_WEIGHTS_PERSISTENT || interface->options.friction == STICKSLIP_FRICTION_TIED)
-    PetscFunctionReturn(PETSC_SUCCESS); /* what is tied keeps its gaps with any weights */
-  PetscCall(measure(&interface->part, &most, what));
-  PetscCall(contact_largest(contact->mesh, &most, sizeof(what), what));
-  if (most <= KEPT_TOLD) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!keeps(interface)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(measure(contact->mesh, &interface->part, &overlap));
+  interface->kept = overlap.part;
+  if (overlap.part <= KEPT_TOLD) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                          "snes_contact: warning: the surfaces of %s overlap at the start, by %.3g at node %d at (%g, %g, %g), %.2g of the longest edge "
-                         "there. With `weights: persistent`%s what overlaps counts as closed: it presses nothing, and stays until the node opens. Give a fit "
+                         "there. With `weights: persistent` what overlaps counts as closed: it presses nothing, and stays until the node opens. Give a fit "
                          "with an interference `weights: current`, and close an overlap of the meshes by `adjust`.\n",
-                         interface->name, (double)what[3], (int)what[4], (double)what[0], (double)what[1], (double)what[2], (double)most,
-                         contact->physics->dynamics ? ", the default with `dynamics`," : ""));
+                         interface->name, (double)overlap.depth, (int)overlap.vertex, (double)overlap.X[0], (double)overlap.X[1], (double)overlap.X[2],
+                         (double)overlap.part));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode kept_check(Contact *contact, char why[], size_t length)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    Interface *interface = &contact->interfaces[i];
+    Frozen    *sunk      = &interface->sunk;
+    Overlap    overlap;
+    if (!keeps(interface)) continue;
+    PetscCall(measure(contact->mesh, &interface->part, &overlap));
+    sunk->amount = overlap.part - interface->kept;
+    if (sunk->amount <= SUNK_TOLD) continue;
+    PetscCall(PetscSNPrintf(sunk->words, sizeof(sunk->words),
+                            "the surfaces of %s have sunk into each other, by %.3g at node %d at (%g, %g, %g) in the undeformed body, %.2g of the longest edge there",
+                            interface->name, (double)overlap.depth, (int)overlap.vertex, (double)overlap.X[0], (double)overlap.X[1], (double)overlap.X[2],
+                            (double)overlap.part));
+    if (sunk->amount > SUNK_MOST)
+      PetscCall(PetscSNPrintf(why, length,
+                              "converged, but %s: with `weights: persistent` overlaps that a step leaves count as closed in the next, and add up where surfaces "
+                              "slide, however short the steps. Take `weights: current`",
+                              sunk->words));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The step counts. */
+PetscErrorCode kept_accept(Contact *contact)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    Interface *interface = &contact->interfaces[i];
+    if (!keeps(interface) || interface->sunk.told || interface->sunk.amount <= SUNK_TOLD) continue;
+    interface->sunk.told = PETSC_TRUE;
+    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
+                           "snes_contact: warning: at t = %.6g %s. With `weights: persistent` overlaps that a step leaves count as closed in the next, and add up "
+                           "where surfaces slide, however short the steps. `weights: current` lets none grow.\n",
+                           (double)contact->physics->t, interface->sunk.words));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

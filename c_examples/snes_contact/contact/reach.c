@@ -62,8 +62,10 @@ PetscErrorCode reach_measure(Contact *contact)
     extent_add(&whole[cluster[parts->of_piece[v]]], mesh->coordinates + 3 * v);
   for (PetscInt p = 0; p < parts->n; p++)
     PetscCall(extent_of_all(&whole[p]));
-  for (PetscInt p = 0; p < parts->n; p++)
-    parts->part[p].reach = PetscSqrtReal(extent_diagonal_squared(&whole[cluster[p]]));
+  for (PetscInt p = 0; p < parts->n; p++) {
+    parts->part[p].reach   = PetscSqrtReal(extent_diagonal_squared(&whole[cluster[p]]));
+    parts->part[p].cluster = cluster[p];
+  }
   PetscCall(PetscFree2(whole, cluster));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

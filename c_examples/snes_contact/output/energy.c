@@ -9,28 +9,21 @@ enum { KINETIC, STRAIN, EXTERNAL, SUPPORTS, CONTACT, FRICTION, DAMPING, NUMERICA
 static const char *const NAMES[N_SCALARS] = {"kinetic", "strain", "external_work", "support_work", "contact_work",
                                              "friction_dissipation", "damping", "numerical", "contact_gain", "contact_store"};
 
-/* What contact gives in a step, over the energy of the bodies before or after it, whichever is more, from which on it is told: far above
- * what Newton's method leaves. Bodies that start at rest have all their energy of this step. */
-static const PetscReal GAIN = 1e-8;
-
-static void collect(const Dynamics *dynamics, const Balance *balance, PetscReal friction, PetscReal values[N_SCALARS])
+static void collect(const Dynamics *dynamics, const Balance *balance, PetscReal values[N_SCALARS])
 {
-  const Balance *start = &dynamics->start;
   values[KINETIC]  = balance->kinetic;
   values[STRAIN]   = balance->strain;
   values[EXTERNAL] = balance->external;
   values[SUPPORTS] = balance->supports;
   values[CONTACT]  = balance->contact;
-  values[FRICTION] = friction;
+  values[FRICTION] = balance->friction;
   values[DAMPING]  = balance->damping;
   values[GIVEN]    = balance->given;
   values[STORE]    = balance->store;
-  /* what has come from nowhere: by rho_inf below 1, or finite strain */
-  values[NUMERICAL] = (balance->kinetic - start->kinetic) + (balance->strain - start->strain) - balance->external - balance->supports -
-                      balance->contact + balance->damping;
+  values[NUMERICAL] = dynamics_numerical(dynamics, balance);
 }
 
-static PetscErrorCode write_row(const Output *output, PetscReal t, const Balance *balance, PetscReal friction, PetscBool first)
+static PetscErrorCode write_row(const Output *output, PetscReal t, const Balance *balance, PetscBool first)
 {
   PetscReal values[N_SCALARS];
   char      path[PETSC_MAX_PATH_LEN];
@@ -46,7 +39,7 @@ static PetscErrorCode write_row(const Output *output, PetscReal t, const Balance
       fprintf(file, ",%s", NAMES[k]);
     fprintf(file, ",momentum_x,momentum_y,momentum_z,angular_x,angular_y,angular_z\n");
   }
-  collect(output->physics->dynamics, balance, friction, values);
+  collect(output->physics->dynamics, balance, values);
   fprintf(file, "%.17g", (double)t);
   for (int k = 0; k < N_SCALARS; k++)
     fprintf(file, ",%.17g", (double)values[k]);
@@ -60,7 +53,7 @@ static PetscErrorCode write_row(const Output *output, PetscReal t, const Balance
 PetscErrorCode energy_begin(const Output *output)
 {
   PetscFunctionBegin;
-  if (output->physics->dynamics) PetscCall(write_row(output, 0, &output->physics->dynamics->start, 0, PETSC_TRUE));
+  if (output->physics->dynamics) PetscCall(write_row(output, 0, &output->physics->dynamics->start, PETSC_TRUE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -108,9 +101,9 @@ PetscErrorCode energy_report(const Output *output, PetscReal friction, cJSON *st
   PetscFunctionBegin;
   if (!dynamics) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(contact_store(output->contact, &store));
-  PetscCall(dynamics_measure(output->physics, store));
+  PetscCall(dynamics_measure(output->physics, store, friction));
   json = cJSON_AddObjectToObject(step, "energy");
-  collect(dynamics, &dynamics->now, friction, values);
+  collect(dynamics, &dynamics->now, values);
   for (int k = 0; k < N_SCALARS; k++)
     cJSON_AddNumberToObject(json, NAMES[k], values[k]);
   cJSON_AddItemToObject(step, "momentum", cJSON_CreateDoubleArray(dynamics->now.momentum, 3));
@@ -118,43 +111,12 @@ PetscErrorCode energy_report(const Output *output, PetscReal friction, cJSON *st
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What may be behind it, and what to do instead. */
-static const char *cause_of_gain(const Contact *contact)
-{
-  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    if (decision_is_points(&contact->interfaces[i]))
-      return "With `decision: points` it may, whatever the weights: a node's gap is a mean over the facets around it, so that forces are not quite those of "
-             "what contact stores (contact_store). `decision: nodes` with `weights: persistent`, their default, gives none; finer facets give less.";
-  }
-  return "Overlaps at the start do so, and offsets that grow; else it is weights that are found anew after each step on curved surfaces. "
-         "`weights: persistent`, the default where it goes with the rest, gives none; finer facets give less.";
-}
-
-/* The first time that contact gives energy. */
-static PetscErrorCode warn(const Output *output)
-{
-  Dynamics       *dynamics = output->physics->dynamics;
-  const Balance  *before = &dynamics->last, *now = &dynamics->now;
-  const PetscReal gain = now->given - before->given, energy = PetscMax(before->kinetic + before->strain, now->kinetic + now->strain);
-  PetscFunctionBegin;
-  if (dynamics->told || gain <= GAIN * energy) PetscFunctionReturn(PETSC_SUCCESS);
-  dynamics->told = PETSC_TRUE;
-  PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
-                         "snes_contact: warning: in the step to t = %.6g contact gives the bodies %.2g of their energy. %s All of it: contact_gain in "
-                         "energy.csv. See docs/dynamics.md.\n",
-                         (double)output->physics->t, (double)(gain / energy), cause_of_gain(output->contact)));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* The step is accepted. */
 PetscErrorCode energy_settle(const Output *output)
 {
-  PetscReal friction = 0;
   PetscFunctionBegin;
   if (!output->physics->dynamics) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt i = 0; i < output->contact->n_interfaces; i++)
-    friction += output->contact->interfaces[i].friction_work;
-  PetscCall(warn(output));
-  PetscCall(write_row(output, output->physics->t, &output->physics->dynamics->now, friction, PETSC_FALSE));
+  PetscCall(energy_tell(output));
+  PetscCall(write_row(output, output->physics->t, &output->physics->dynamics->now, PETSC_FALSE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

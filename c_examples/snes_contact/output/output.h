@@ -48,6 +48,10 @@ PetscErrorCode acting_report(Output *output, struct cJSON *step);
 PetscErrorCode energy_begin(const Output *output);
 PetscErrorCode energy_report(const Output *output, PetscReal friction, struct cJSON *step);
 PetscErrorCode energy_settle(const Output *output);
+/* energy_told.c: likewise; of an accepted step, and whether a converged one counts: why not */
+PetscErrorCode energy_tell(const Output *output);
+PetscErrorCode energy_check(const Output *output, PetscBool *late, char why[], size_t length);
+void           energy_summary(const Output *output, struct cJSON *root);
 
 /* uniqueness.c: of a node with friction */
 PetscErrorCode uniqueness_check(Output *output, Vec x, struct cJSON *root);

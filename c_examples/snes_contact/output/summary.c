@@ -328,6 +328,7 @@ PetscErrorCode summary_write(Output *output, Summary **summary, Vec last, PetscI
   if (solve->least_pivot > 0) cJSON_AddNumberToObject((*summary)->root, "least_pivot", solve->least_pivot);
   if (solve->n_raised) cJSON_AddNumberToObject((*summary)->root, "mumps_workspace", solve->room); /* per cent, after it asked */
   PetscCall(range_report(output->physics, (*summary)->root));
+  energy_summary(output, (*summary)->root);
   PetscCall(summary_counters(output, (*summary)->root));
   PetscCall(summary_holdings(output, (*summary)->root));
   if (message[0])

@@ -140,17 +140,17 @@ PetscErrorCode bulk_forces(Physics *physics, Vec f_local, PetscInt *status)
   for (PetscInt c = 0; c < cells->n && first_inverted < 0; c++) {
     const PetscInt *dofs = cells->dofs + cells->offsets[c],
                    n     = cells->offsets[c + 1] - cells->offsets[c];
-    PetscReal u_cell[3 * CELL_NODES], f_cell[3 * CELL_NODES];
+    PetscReal u_cell[3 * CELL_NODES], f_cell[3 * CELL_NODES], *squares = physics->parts.squares + N_SQUARES * cells->part[c];
     PetscBool inverted;
     if (is_rigid(physics, c)) continue;
     cell_displacements(physics, c, u, u_cell);
     PetscCall(cell_forces(kind_of(physics, c), &physics->mesh->space, &physics->materials[cells->body[c]],
                           cells->X + 3 * cells->offsets[c], u_cell, f_cell, NULL, &inverted));
     if (inverted) first_inverted = c;
-    physics->parts.squares[N_SQUARES * cells->part[c] + SQUARES_ROUNDING] += squared_rounding(physics, c, n, u_cell);
-    for (PetscInt a = 0; a < n; a++) {
-      for (int i = 0; i < 3; i++)
-        f[dofs[a] + i] += f_cell[3 * a + i];
+    squares[SQUARES_ROUNDING] += squared_rounding(physics, c, n, u_cell);
+    for (PetscInt k = 0; k < 3 * n; k++) {
+      f[dofs[k / 3] + k % 3] += f_cell[k];
+      squares[SQUARES_CARRIED] += PetscSqr(f_cell[k]);
     }
   }
   PetscCall(VecRestoreArray(f_local, &f));

@@ -187,6 +187,7 @@ PetscErrorCode dynamics_forces(Physics *physics, Vec f_local, PetscInt *status)
   if (d->rho_inf < 1) PetscCall(VecAXPY(f_local, d->alpha_m / d->scale - 1 + 2 * d->beta, d->force));
   PetscCall(VecCopy(f_local, d->smooth));
   PetscCall(parts_add_squares(physics, d->impulse, -1, SQUARES_REACTIONS));
+  PetscCall(parts_add_squares(physics, d->impulse, -1, SQUARES_CARRIED));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

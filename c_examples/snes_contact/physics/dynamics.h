@@ -15,9 +15,18 @@ typedef struct {
   PetscReal given;                       /* of that of contact the steps in which it gave energy that it had not stored, where nothing
                                             without mass moves */
   PetscReal store;                       /* what contact has stored: no part of that of the bodies */
+  PetscReal friction, lost;              /* that of friction, as the library counts it; what contact has taken beside it, where nothing
+                                            without mass moves */
   PetscReal damping;                     /* energy that is gone by it */
+  PetscReal largest;                     /* energy of the bodies so far, without what came from nowhere */
   PetscReal momentum[3], angular[3];     /* the latter about the origin */
 } Balance;
+
+/* Energy that should not come or go (output/energy_told.c): in the step to which it was told, 0: never; how much, over that of the bodies */
+enum { ENERGY_CONTACT, ENERGY_TIME, ENERGY_IMPACT, N_ENERGIES };
+typedef struct {
+  PetscReal t, part;
+} EnergyTold;
 
 struct Dynamics {
   PetscReal rho_inf, alpha_m, alpha_f, beta, gamma;
@@ -35,7 +44,8 @@ struct Dynamics {
   Vec     v_next, force_next, prescribed_next; /* the same at the end of the step: what is prescribed from its start on, else by dynamics_measure() */
   Vec     middle, work, smooth, impulse; /* the place of the forces; work space; forces but those of contact; 2 M v / dt */
   Balance start, last, now;
-  PetscBool told; /* that contact gives energy */
+  PetscBool told; /* that contact gives energy at all */
+  EnergyTold energies[N_ENERGIES];
   Mat     matrix; /* of the masses, and what solves with it; NULL where rho_inf is 1 */
   KSP     solver;
 };
@@ -65,8 +75,10 @@ PetscErrorCode dynamics_looked(const Physics *physics, StepView *step);
 PetscReal      dynamics_rate(const Dynamics *dynamics, const StepView *step, PetscInt k);
 PetscReal      dynamics_velocity(const Dynamics *dynamics, const StepView *step, PetscInt k);
 void           dynamics_swap(Vec *a, Vec *b); /* no copy */
-/* dynamics_balance.c: at a converged state, before the step is accepted; `f_local` of the last evaluation; what contact has stored */
-PetscErrorCode dynamics_measure(Physics *physics, PetscReal store);
+/* dynamics_balance.c: at a converged state, before the step is accepted; `f_local` of the last evaluation; what contact has stored, what friction has
+ * taken up to here */
+PetscErrorCode dynamics_measure(Physics *physics, PetscReal store, PetscReal friction);
+PetscReal      dynamics_numerical(const Dynamics *dynamics, const Balance *balance); /* what has come from nowhere */
 PetscErrorCode dynamics_energies(Physics *physics, Vec u, Vec v, PetscBool end, Balance *balance); /* end: of rigid bodies, the motion of now */
 /* mass.c: f += factor M v, of the cells here; the matrix of the equations, and what solves with it */
 PetscErrorCode mass_create(Physics *physics);

@@ -251,10 +251,17 @@ static PetscErrorCode massless_moves(const Physics *physics, PetscBool *moves)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode dynamics_measure(Physics *physics, PetscReal store)
+/* By rho_inf below 1, or finite strain. */
+PetscReal dynamics_numerical(const Dynamics *d, const Balance *balance)
+{
+  return (balance->kinetic - d->start.kinetic) + (balance->strain - d->start.strain) - balance->external - balance->supports - balance->contact +
+         balance->damping;
+}
+
+PetscErrorCode dynamics_measure(Physics *physics, PetscReal store, PetscReal friction)
 {
   Dynamics *d = physics->dynamics;
-  PetscReal work[4] = {0};
+  PetscReal work[4] = {0}, gained;
   RigidWork of_rigids = {0};
   PetscBool moves;
   const PetscScalar *external;
@@ -278,9 +285,13 @@ PetscErrorCode dynamics_measure(Physics *physics, PetscReal store)
   d->now.supports += work[1];
   d->now.contact += work[2];
   PetscCall(massless_moves(physics, &moves));
-  d->now.store = store;
-  if (!moves) d->now.given += PetscMax(work[2] + store - d->last.store, 0);
+  d->now.store    = store;
+  d->now.friction = friction;
+  gained          = work[2] + store - d->last.store;
+  if (!moves) d->now.given += PetscMax(gained, 0);
+  if (!moves) d->now.lost += PetscMax(-gained - (friction - d->last.friction), 0);
   d->now.damping += work[3];
   PetscCall(dynamics_energies(physics, physics->u_local, d->v_next, PETSC_TRUE, &d->now));
+  d->now.largest = PetscMax(d->last.largest, d->now.kinetic + d->now.strain - PetscMax(dynamics_numerical(d, &d->now), 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -96,7 +96,8 @@ PetscErrorCode dynamics_create(Scene *scene, Physics *physics)
                  physics->inverted);
   }
   PetscCall(dynamics_energies(physics, d->u, d->v, PETSC_FALSE, &d->last));
-  d->start = d->last;
+  d->last.largest = d->last.kinetic + d->last.strain;
+  d->start        = d->last;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -12,6 +12,11 @@ static PetscReal lame(const Material *material)
   return material->young * material->poisson / ((1 + material->poisson) * (1 - 2 * material->poisson));
 }
 
+PetscReal material_confined(const Material *material)
+{
+  return lame(material) + 2 * shear_modulus(material);
+}
+
 static PetscReal trace(const PetscReal H[9])
 {
   return H[0] + H[4] + H[8];

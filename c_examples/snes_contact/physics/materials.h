@@ -31,6 +31,9 @@ struct Material {
   PetscBool          mean_dilatation;
 };
 
+/* stress over a small strain of what cannot widen */
+PetscReal material_confined(const Material *material);
+
 extern const MaterialLaw MATERIAL_LINEAR, MATERIAL_ST_VENANT_KIRCHHOFF, MATERIAL_NEO_HOOKE;
 
 /* plane_stress.c: H_33 for which nothing pulls across the plane, P_33 = 0, in place of the given one; the other components

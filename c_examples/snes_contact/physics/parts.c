@@ -1,16 +1,6 @@
-/* The model's parts, connected pieces of mesh that nothing but contact joins, and whether the forces on each balance.
- *
- * A part's residual is compared with twice its own forces, |loads| + |reactions| + |contact forces| (2-norms of nodal forces),
- * the largest so far (at the start: FAINT E size^2), so that an unloaded step is not judged by its own noise. Below the
- * rounding of displacements it balances, too: that alone gives a part that moves without stress its forces
- * (bulk_forces()). Another part's forces count for nothing, however large they are. */
+/* The model's parts, connected pieces of mesh that nothing but contact joins, and the forces on each. Whether they balance: balance.c. */
 #include "physics/physics.h"
 
-/* Rounding may be so much of the forces on a part that has loads. It is nearly balanced in itself: where it is 1e-3 of a
- * load, contact forces are right to 1e-10; where it is as large as the load, they are anything. */
-static const PetscReal DROWNED = 1e-3;
-/* A force on a part is balanced within it, so that it acts twice. */
-static const PetscReal TWICE = 2;
 /* A first reference, over E times the square of the part's size: too small to matter. */
 static const PetscReal FAINT = 1e-12;
 
@@ -37,6 +27,7 @@ static PetscErrorCode measure(Physics *physics)
   for (PetscInt p = 0; p < parts->n; p++) {
     PetscCall(extent_of_all(&own[p]));
     parts->part[p].young = young[p];
+    parts->part[p].size  = PetscSqrtReal(extent_diagonal_squared(&own[p]));
     parts->part[p].faint = FAINT * young[p] * extent_diagonal_squared(&own[p]);
   }
   PetscCall(PetscFree(own));
@@ -196,36 +187,33 @@ PetscErrorCode parts_measure(Physics *physics)
     parts->part[p].residual  = PetscSqrtReal(squares[SQUARES_RESIDUAL]);
     parts->part[p].noise     = PetscSqrtReal(squares[SQUARES_ROUNDING]);
     parts->part[p].loads     = PetscSqrtReal(squares[SQUARES_LOADS]);
-    parts->part[p].reference =
-        TWICE * (PetscSqrtReal(squares[SQUARES_LOADS]) + PetscSqrtReal(squares[SQUARES_REACTIONS]) +
-                 PetscSqrtReal(squares[SQUARES_CONTACT]));
+    parts->part[p].carried   = parts->part[p].loads + PetscSqrtReal(squares[SQUARES_CARRIED]);
+    parts->part[p].exerted   = PetscSqrtReal(squares[SQUARES_REACTIONS]) + PetscSqrtReal(squares[SQUARES_CONTACT]);
   }
   share_noise(parts);
+  parts_refer(physics);
   parts->reference_force = PetscSqrtReal(sum[SQUARES_LOADS]) + PetscSqrtReal(sum[SQUARES_REACTIONS]) +
                            PetscSqrtReal(sum[SQUARES_CONTACT]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Do the forces on every part balance? `relative`: to rtol, so that neither noise nor atol was asked. `flies`: a part
- * has left all that it could touch. It has any rounding that it likes, and nothing that balances its load: then no
- * noise is allowed. `drowned`: a part whose loads are below the rounding of its own stiffness. It has no answer. -1:
- * none. */
-void parts_judge(const Physics *physics, PetscReal rtol, PetscReal atol, PetscBool flies, PetscBool *balance,
-                 PetscBool *relative, PetscInt *drowned)
+/* "block", or "block (piece 2 of 3)" where a body is in pieces: parts are numbered as they are met */
+PetscErrorCode parts_name(const Physics *physics, PetscInt part, char name[], size_t length)
 {
-  *balance = *relative = PETSC_TRUE;
-  *drowned             = -1;
-  for (PetscInt p = 0; p < physics->parts.n; p++) {
-    const Part *part = &physics->parts.part[p];
-    if (part->residual <= rtol * PetscMax(part->faint, PetscMax(part->reference, part->felt))) continue;
-    *relative = PETSC_FALSE;
-    if (!(part->residual <= PetscMax(atol, flies ? 0 : part->noise))) {
-      *balance = PETSC_FALSE;
-    } else if (part->loads > 0 && part->residual > PetscMax(atol, DROWNED * PetscMax(part->reference, part->felt))) {
-      *balance = PETSC_FALSE;
-      *drowned = p;
-    }
+  const Parts   *parts = &physics->parts;
+  const PetscInt body  = mesh_body_of(physics->mesh, parts->part[part].first);
+  PetscInt       piece = 0, pieces = 0;
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < parts->n; p++) {
+    if (mesh_body_of(physics->mesh, parts->part[p].first) != body) continue;
+    pieces++;
+    if (p == part) piece = pieces;
   }
+  if (pieces > 1)
+    PetscCall(PetscSNPrintf(name, length, "%s (piece %d of %d)", physics->mesh->bodies[body].name, (int)piece, (int)pieces));
+  else
+    PetscCall(PetscSNPrintf(name, length, "%s", physics->mesh->bodies[body].name));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* A step is accepted. */

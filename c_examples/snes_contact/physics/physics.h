@@ -104,15 +104,16 @@ typedef struct {
 
 /* Connected cells: bodies, or pieces of them, that nothing but contact joins to others */
 typedef struct {
-  PetscInt  first;                  /* number of its first vertex */
-  PetscReal young, reach;           /* the stiffest E; size of all that contact may join to it: reach_measure() */
+  PetscInt  first, cluster;         /* number of its first vertex; which parts interfaces may join to it: reach_measure() */
+  PetscReal young, size, reach;     /* the stiffest E; its size, and of all that contact may join to it */
   PetscReal reference, felt;        /* its forces at the last evaluation; the largest of a converged step */
   PetscReal faint;                  /* a first reference, too small to matter */
   PetscReal loads, residual, noise; /* at the last evaluation */
+  PetscReal carried, exerted;       /* likewise: what it carries, whatever contact says (balance.c); reactions and contact forces */
 } Part;
 
 /* Sums of squares of a part's nodal forces */
-enum { SQUARES_LOADS, SQUARES_REACTIONS, SQUARES_CONTACT, SQUARES_ROUNDING, SQUARES_RESIDUAL, N_SQUARES };
+enum { SQUARES_LOADS, SQUARES_REACTIONS, SQUARES_CONTACT, SQUARES_ROUNDING, SQUARES_RESIDUAL, SQUARES_CARRIED, N_SQUARES };
 
 typedef struct {
   PetscInt   n, *of_piece, *of_vertex; /* part of each vertex of the piece; of each vertex here */
@@ -311,9 +312,19 @@ PetscErrorCode parts_label(Physics *physics);
 PetscErrorCode parts_create(Physics *physics);
 PetscErrorCode parts_measure(Physics *physics);
 PetscErrorCode parts_add_squares(Physics *physics, Vec local, int prescribed, int free);
-void           parts_judge(const Physics *physics, PetscReal rtol, PetscReal atol, PetscBool flies, PetscBool *balance,
-                           PetscBool *relative, PetscInt *drowned);
+PetscErrorCode parts_name(const Physics *physics, PetscInt part, char name[], size_t length);
 void           parts_accept(Physics *physics);
+
+/* balance.c: the references of all parts, once they are measured; do the forces on every part balance? */
+typedef struct {
+  PetscBool balance, relative; /* relative: to rtol, so that neither noise nor atol was asked */
+  PetscInt  drowned;           /* a part whose loads are below the rounding of its own stiffness: it has no answer; -1: none */
+  PetscInt  hidden;            /* a part whose forces would balance if those of contact counted in full; -1: none */
+} Judgement;
+void           parts_refer(Physics *physics);
+Judgement      parts_judge(const Physics *physics, PetscReal rtol, PetscReal atol, PetscBool flies);
+PetscErrorCode parts_hidden_words(const Physics *physics, PetscInt part, char why[], size_t length);
+PetscErrorCode parts_resultants(Physics *physics, char why[], size_t length); /* of each part as a whole; empty: they balance */
 
 /* range.c: do bodies with the linear material stay where it is right? */
 PetscErrorCode range_check(Physics *physics, Vec u_local);

@@ -145,6 +145,7 @@ PetscErrorCode springs_forces(Physics *physics, Vec f_local)
   PetscCall(VecRestoreArrayRead(physics->u_local, &u));
   PetscCall(VecAXPY(f_local, 1, springs->forces));
   PetscCall(parts_add_squares(physics, springs->forces, SQUARES_CONTACT, SQUARES_CONTACT)); /* of another body, or the ground */
+  PetscCall(parts_add_squares(physics, springs->forces, SQUARES_CARRIED, SQUARES_CARRIED));
   PetscCall(PetscFree(q));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,8 +1,9 @@
 /* When is an iterate converged, and what if it is not?
  *
- * Converged: the forces on each part of the model balance, measured by its own forces (parts.c), and every interface is in
+ * Converged: the forces on each part of the model balance, measured by its own forces (balance.c), and every interface is in
  * contact equilibrium, measured by its own tractions (equilibrium.c). The multiplier rows are not asked: they are as
- * small as the augmentation. -snes_rtol sets the tolerance of both, -snes_atol a limit in units of force.
+ * small as the augmentation. -snes_rtol sets the tolerance of both, -snes_atol a limit in units of force. What is converged so must be sound
+ * beside: forces and moments balance on each part as a whole (balance.c), and contact is what contact can be (sound.c).
  *
  * An iterate that is not converged is watched for cycles (cycling.c): the augmentation of nodes that cycle is changed,
  * CHANGES times at most in one attempt. One that has converged so must do so with the scene's augmentation, too. */
@@ -10,6 +11,9 @@
 #include <cjson/cJSON.h>
 
 enum { CHANGES = 3 };
+/* Iterations in a row at which all is well but that contact forces hide a residual, or that a part does not balance as a whole: Newton's
+ * method has ended at its rounding. */
+enum { UNSOUND = 3 };
 
 /* rank 0: a cycle for the report, and as a sentence */
 static PetscErrorCode report_cycle(Solve *solve, PetscInt period, PetscInt iteration)
@@ -72,10 +76,22 @@ static PetscErrorCode confirm(Solve *solve, PetscReal *norm)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Why an iterate that looks converged is not, in newton->unsound; `at_once`: iterating on changes nothing. */
+static PetscErrorCode refuse(Newton *newton, PetscBool at_once, SNESConvergedReason *reason)
+{
+  PetscFunctionBegin;
+  newton->n_unsound++;
+  /* of PETSc's names the nearest; the report has newton->unsound */
+  if (at_once || newton->n_unsound > UNSOUND) *reason = SNES_DIVERGED_LOCAL_MIN;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode judge(SNES snes, Solve *solve, PetscReal norm, SNESConvergedReason *reason)
 {
+  Newton         *newton = &solve->newton;
   PetscReal       atol, rtol;
-  PetscBool       balance, relative, holds, stuck;
+  PetscBool       holds, stuck;
+  Judgement       forces;
   const PetscBool flies = (PetscBool)(solve->closing.active && solve->closing.loose >= 0);
   PetscFunctionBegin;
   PetscCall(SNESGetTolerances(snes, &atol, &rtol, NULL, NULL, NULL));
@@ -84,16 +100,34 @@ static PetscErrorCode judge(SNES snes, Solve *solve, PetscReal norm, SNESConverg
     *reason = SNES_DIVERGED_FUNCTION_NANORINF;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  parts_judge(solve->physics, rtol, atol, flies, &balance, &relative, &solve->newton.drowned);
-  if (!balance) {
+  newton->unsound[0] = 0;
+  forces             = parts_judge(solve->physics, rtol, atol, flies);
+  newton->drowned    = forces.drowned;
+  if (!forces.balance) {
     equilibrium_restart(solve->contact);
+    if (forces.hidden < 0) {
+      newton->n_unsound = 0;
+      PetscFunctionReturn(PETSC_SUCCESS);
+    }
+    PetscCall(parts_hidden_words(solve->physics, forces.hidden, newton->unsound, sizeof(newton->unsound)));
+    PetscCall(refuse(newton, PETSC_FALSE, reason));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(equilibrium_judge(solve->contact, rtol, &holds, &stuck));
-  if (holds)
-    *reason = relative ? SNES_CONVERGED_FNORM_RELATIVE : SNES_CONVERGED_FNORM_ABS;
-  else if (stuck)
-    *reason = SNES_DIVERGED_LOCAL_MIN; /* of PETSc's names the nearest; contact->settling.unsettled has words */
+  if (!holds) {
+    if (stuck) *reason = SNES_DIVERGED_LOCAL_MIN; /* likewise; contact->settling.unsettled has words */
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(contact_sound(solve->contact, newton->unsound, sizeof(newton->unsound)));
+  if (newton->unsound[0]) {
+    PetscCall(refuse(newton, PETSC_TRUE, reason));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(parts_resultants(solve->physics, newton->unsound, sizeof(newton->unsound)));
+  if (newton->unsound[0])
+    PetscCall(refuse(newton, PETSC_FALSE, reason));
+  else
+    *reason = forces.relative ? SNES_CONVERGED_FNORM_RELATIVE : SNES_CONVERGED_FNORM_ABS;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -141,6 +141,8 @@ static PetscErrorCode explain(Solve *solve, SNESConvergedReason reason)
                             "the loads on a body with E = %.3g, %.2g in all, are lost in the rounding of its own forces, "
                             "%.2g: make it less stiff, or `type: analytic`, or load it by a prescribed displacement",
                             (double)part->young, (double)part->loads, (double)part->residual));
+  } else if (newton->unsound[0]) {
+    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s", newton->unsound));
   } else if (newton->cycle[0]) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s%s%s", newton->cycle,
                             newton->stopped ? "" : "; at last: ", newton->stopped ? "" : in_words(reason, linear)));
@@ -203,6 +205,8 @@ static PetscErrorCode attempt(Solve *solve, int k, const Past *past, Vec x, Pets
     PetscCall(SNESSetTolerances(solve->snes, atol, rtol, stol, CLOSING_ITERATIONS, max_f));
   closing_begin(solve, (PetscBool)(k == CLOSING));
   newton->drowned   = -1;
+  newton->n_unsound = 0;
+  newton->unsound[0] = 0;
   newton->slid      = 0;
   solve->linear.refusal[0] = 0;
   contact->refusal[0] = solve->physics->inverted[0] = newton->why[0] = 0;

@@ -98,6 +98,7 @@ static PetscErrorCode archive_motion(Solve *solve, Archive *archive)
   PetscCall(archive_bytes(archive, "balance.start", sizeof(d->start), &d->start));
   PetscCall(archive_bytes(archive, "balance", sizeof(d->last), &d->last));
   PetscCall(archive_bools(archive, "balance.told", 1, &d->told));
+  PetscCall(archive_bytes(archive, "balance.energies", sizeof(d->energies), d->energies));
   PetscCall(contact_archive_vector(solve->contact, "displacements", d->u, archive));
   PetscCall(contact_archive_vector(solve->contact, "velocities", d->v, archive));
   PetscCall(contact_archive_vector(solve->contact, "accelerations", d->prescribed, archive));

@@ -48,6 +48,8 @@ typedef struct {
   char          cycle[768];        /* the last one found in it, as a sentence */
   char          why[1024];         /* it did not converge */
   PetscInt      drowned;           /* a part whose loads the rounding of its own stiffness hides; -1: none */
+  char          unsound[768];      /* why the last iterate is not converged, although it looks so (convergence.c); empty: it does not */
+  PetscInt      n_unsound;         /* iterates in a row that looked so */
   struct cJSON *cycles;            /* rank 0: those seen since the last report */
   struct cJSON *state_changes;     /* of the last attempt: nodes, by iteration from the second on; NULL: reported */
 } Newton;

@@ -1,6 +1,6 @@
 """Two plane bodies that meet: one stiffer and stiffer, or heavier and heavier, steps from a tenth of h / c to a hundred of it. Whatever
-becomes of it, no step gives energy, and what contact takes is all that is gone; momentum is kept. With persistent weights, which dynamics take
-by themselves, a disc that spins, too. A rigid brick that tumbles, by more and more in a step."""
+becomes of it, no step gives energy, and what contact takes is all that is gone; momentum is kept. With persistent weights a disc that
+spins, too. A rigid brick that tumbles, by more and more in a step."""
 
 import numpy as np
 
@@ -61,7 +61,7 @@ def disc(spin):
         "surfaces": ["rim"],
         "rim": {"of": [f"disc.{axis}{end}" for axis in "xy" for end in ("min", "max")], "within": [-9, -9, 9, 9]},
         "interfaces": ["base"],
-        "base": {"nonmortar": "block.ymax", "mortar": "rim", "friction": 0.1},
+        "base": {"nonmortar": "block.ymax", "mortar": "rim", "friction": 0.1, **PERSISTENT},
         "steps": {"count": 60, "end": 0.3},
         "output": {"vtu": "none", "csv": "none"},
     }

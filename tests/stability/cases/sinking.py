@@ -1,0 +1,89 @@
+"""What moves and must neither sink nor gain: a block that slides on a flat elastic floor under its weight, over more and more facets, with the weights
+that dynamics take by themselves and with persistent ones; and a free block of finite strain that spins by more and more in a step. What is wrong in
+the end must have been told by name, or have ended the run."""
+
+import re
+
+import numpy as np
+
+import host
+from cell import series
+
+# The block rests 1.0e-3 deep at its weight, and swings to twice that about it; coarse facets on coarse facets add half of that at most.
+DEEPEST = 0.003
+# What the driver tells from on.
+TOLD = 0.01
+SUNK = "have sunk into each other"
+GAINED = "the time integration has given or taken"
+FACETS = (1, 2, 5, 10, 20, 40)
+TURNS = (1e-3, 1e-2, 0.05, 0.1, 0.3, 0.7)
+
+
+def sliding(facets, **interface):
+    """Over so many facets of the floor in 100 steps."""
+    box = {"type": "box", "young": 1e4, "poisson": 0.3, "small_strain": True}
+    return {
+        "schema": 1,
+        "model": "plane_strain",
+        "bodies": ["block", "floor"],
+        "block": {**box, "lower": [0, 0], "upper": [0.4, 0.2], "cells": [4, 2], "density": 20, "velocity": [0.1 * facets, 0]},
+        "floor": {**box, "lower": [-0.4, -0.4], "upper": [4.6, 0], "cells": [50, 4], "density": 2},
+        "supports": ["ground"],
+        "ground": {"surface": "floor.ymin", "components": ["x", "y"]},
+        "loads": ["weight"],
+        "weight": {"body": "block", "gravity": [0, -10], "curve": [0, 1, 9, 1]},
+        "dynamics": {"rho_inf": 1},
+        "interfaces": ["contact"],
+        "contact": {"nonmortar": "block.ymin", "mortar": "floor.ymax", **interface},
+        "probes": ["corner"],
+        "corner": {"body": "block", "point": [0, 0.2]},
+        "steps": {"count": 100, "end": 1},
+        "output": {"vtu": "none", "csv": "none"},
+    }
+
+
+def slides(context, facets, **interface):
+    whole = context.solve(sliding(facets, **interface))
+    result = host.outcome(whole)
+    if result.refusal is None:
+        deepest = -min(step["probes"]["corner"][1] for step in whole.steps)
+        table = np.genfromtxt(whole.directory / "energy.csv", delimiter=",", names=True)
+        given = table["contact_gain"][-1] / (table["kinetic"] + table["strain"]).max()
+        told = SUNK in whole.text
+        result.true("sunk and not told", told or deepest < DEEPEST, f"lowest at -{deepest:.3g}")
+        result.true("gained and not told", given < TOLD or "energy_told" in whole.summary, f"{given:.2g} of its energy")
+        if told:
+            result.warnings.append("told that it sinks")
+    return result
+
+
+def spins(context, turn):
+    """A free block of neo-Hooke, `turn` radians in each of 25 steps."""
+    whole = context.solve({
+        "schema": 1,
+        "model": "plane_strain",
+        "bodies": ["block"],
+        "block": {"type": "box", "lower": [-0.1, -0.1], "upper": [0.1, 0.1], "cells": [4, 4], "young": 1000, "poisson": 0.3, "density": 1,
+                  "material": "neo_hooke", "spin": 3, "about": [0, 0]},
+        "dynamics": {"rho_inf": 1},
+        "steps": {"count": 25, "end": 25 * turn / 3},
+        "output": {"vtu": "none", "csv": "none"},
+    })
+    result = host.outcome(whole)
+    if result.refusal is None:
+        table = np.genfromtxt(whole.directory / "energy.csv", delimiter=",", names=True)
+        off = np.abs(table["numerical"]) / table["kinetic"][0]
+        begins = table["t"][np.argmax(off > TOLD)]
+        told = re.search(rf"in the step to t = ([\d.e-]+) what {GAINED}", whole.text)
+        result.true("energy from nowhere and not told", off.max() <= TOLD or told, f"{off.max():.2g} of it")
+        if told:
+            result.below("told late", abs(float(told[1]) - begins) / begins, 1e-5, "in the step where it begins")
+            result.warnings.append(f"told that {off.max():.2g} of its energy comes from nowhere")
+    return result
+
+
+def cells():
+    yield from series("dynamics: slides over facets", FACETS, lambda n: lambda c: slides(c, n), quick=(10,))
+    yield from series("dynamics, persistent weights: slides over facets", FACETS, lambda n: lambda c: slides(c, n, weights="persistent"), quick=(10,),
+                      may_refuse=SUNK)
+    yield from series("dynamics: finite strain spins, radians a step", TURNS, lambda t: lambda c: spins(c, t), quick=(0.3,), may_refuse=GAINED)
