@@ -174,8 +174,7 @@ static PetscErrorCode divide(Mat N, IS multipliers, PetscInt n, const Multiplier
 {
   const PetscInt    *equations;
   const PetscScalar *values;
-  PetscInt           n_mine, first, n_suspects = 0, n_others = 0, before = 0, *rows[2];
-  PetscBool         *taken;
+  PetscInt           n_mine, first, n_suspects = 0, n_others = 0, before = 0, *rows[2], *suspect_at;
   Vec                diagonal;
   PetscFunctionBegin;
   PetscCall(ISGetLocalSize(multipliers, &n_mine));
@@ -186,18 +185,22 @@ static PetscErrorCode divide(Mat N, IS multipliers, PetscInt n, const Multiplier
   PetscCall(VecGetArrayRead(diagonal, &values));
   PetscCall(PetscMalloc1(n, &rows[0]));
   PetscCall(PetscMalloc1(n_mine, &rows[1]));
-  PetscCall(PetscCalloc1(n_mine, &taken));
+  PetscCall(PetscMalloc1(n_mine, &suspect_at));
+  for (PetscInt k = 0; k < n_mine; k++)
+    suspect_at[k] = -1;
   for (PetscInt k = 0; k < n; k++) {
     PetscInt at;
     order[k] = -1;
     PetscCall(PetscFindInt(suspects[k].equation, n_mine, equations, &at));
-    if (at < 0) continue;
-    taken[at]           = PETSC_TRUE;
-    order[k]            = n_suspects;
-    rows[0][n_suspects++] = first + at;
+    if (at >= 0) suspect_at[at] = k;
   }
-  for (PetscInt k = 0; k < n_mine; k++) {
-    if (!taken[k] && PetscRealPart(values[k]) > 0) rows[1][n_others++] = first + k;
+  for (PetscInt k = 0; k < n_mine; k++) { /* PETSc wants rows and columns in order */
+    if (suspect_at[k] >= 0) {
+      order[suspect_at[k]]  = n_suspects;
+      rows[0][n_suspects++] = first + k;
+    } else if (PetscRealPart(values[k]) > 0) {
+      rows[1][n_others++] = first + k;
+    }
   }
   PetscCallMPI(MPI_Exscan(&n_suspects, &before, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
   for (PetscInt k = 0; k < n; k++)
@@ -205,7 +208,7 @@ static PetscErrorCode divide(Mat N, IS multipliers, PetscInt n, const Multiplier
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, order, (PetscMPIInt)n, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
   PetscCall(ISCreateGeneral(PETSC_COMM_WORLD, n_suspects, rows[0], PETSC_OWN_POINTER, suspect));
   PetscCall(ISCreateGeneral(PETSC_COMM_WORLD, n_others, rows[1], PETSC_OWN_POINTER, others));
-  PetscCall(PetscFree(taken));
+  PetscCall(PetscFree(suspect_at));
   PetscCall(VecRestoreArrayRead(diagonal, &values));
   PetscCall(VecDestroy(&diagonal));
   PetscCall(ISRestoreIndices(multipliers, &equations));
@@ -317,23 +320,22 @@ static void mark(Contact *contact, const Multiplier *multiplier, PetscBool witho
   if ((interface->removed[a] & all) == all) interface->removed[a] = 7;
 }
 
-static PetscErrorCode tell(const Solve *solve, PetscInt first)
+/* Where there are more than were told of */
+static PetscErrorCode tell(Solve *solve)
 {
-  const Redundant *redundant = &solve->redundant;
+  Redundant *redundant = &solve->redundant;
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < solve->contact->n_interfaces && !solve->quiet; i++) {
-    const Multiplier *one = NULL;
-    PetscInt          n   = 0;
-    for (PetscInt k = first; k < redundant->n; k++) {
-      if (redundant->multipliers[k].interface != i) continue;
-      if (!n++) one = &redundant->multipliers[k];
-    }
-    if (n)
-      PetscCall(PetscPrintf(PETSC_COMM_WORLD,
-                            "%s: %" PetscInt_FMT " multipliers, the first at (%g, %g, %g), are left out: what they ask follows from other "
-                            "conditions of contact and from the supports, and what they push others push as well.\n",
-                            solve->contact->interfaces[i].name, n, (double)one->X[0], (double)one->X[1], (double)one->X[2]));
+  for (PetscInt k = 0, next; k < redundant->n && redundant->n > redundant->told && !solve->quiet; k = next) {
+    const Multiplier *first = &redundant->multipliers[k];
+    for (next = k + 1; next < redundant->n && redundant->multipliers[next].interface == first->interface; next++)
+      ;
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+                          "%s: %" PetscInt_FMT " multipliers, the first at (%g, %g, %g), are left out: what they ask follows from other "
+                          "conditions of contact and from the supports, and what they push others push as well.\n",
+                          solve->contact->interfaces[first->interface].name, next - k, (double)first->X[0], (double)first->X[1],
+                          (double)first->X[2]));
   }
+  redundant->told = PetscMax(redundant->told, redundant->n);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -363,6 +365,7 @@ static PetscErrorCode leave_out(Solve *solve, PetscInt n, const Multiplier suspe
       any = (PetscBool)(all[k].interface == i);
     if (any) PetscCall(renew(solve->contact, i));
   }
+  qsort(all, (size_t)redundant->n, sizeof(*all), compare);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -382,13 +385,48 @@ PetscErrorCode redundant_find(Solve *solve, Vec x, PetscInt *n_found)
   solve->redundant.suspected = (PetscBool)(n > 0 || solve->redundant.n > 0);
   PetscCall(PetscMalloc1(n, &found));
   if (n) {
-    const PetscInt before = solve->redundant.n;
     PetscCall(judge(solve, n, suspects, found));
     PetscCall(leave_out(solve, n, suspects, found, n_found));
-    PetscCall(tell(solve, before));
+    PetscCall(tell(solve));
   }
   PetscCall(PetscFree(found));
   PetscCall(PetscFree(suspects));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What is tied stays what it is. Other bodies move, and other nodes are opposite of each other. */
+static PetscErrorCode take_back(Solve *solve, PetscBool *any)
+{
+  Redundant *redundant = &solve->redundant;
+  PetscInt   kept      = 0;
+  PetscBool *changed;
+  PetscFunctionBegin;
+  *any = PETSC_FALSE;
+  PetscCall(PetscCalloc1(solve->contact->n_interfaces, &changed));
+  for (PetscInt k = 0; k < redundant->n; k++) {
+    const Multiplier multiplier = redundant->multipliers[k];
+    if (multiplier.tied || solve->contact->interfaces[multiplier.interface].frozen) {
+      redundant->multipliers[kept++] = multiplier;
+      continue;
+    }
+    mark(solve->contact, &multiplier, PETSC_FALSE);
+    changed[multiplier.interface] = *any = PETSC_TRUE;
+  }
+  redundant->n = kept;
+  for (PetscInt i = 0; i < solve->contact->n_interfaces; i++) {
+    if (changed[i]) PetscCall(renew(solve->contact, i));
+  }
+  PetscCall(PetscFree(changed));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode redundant_begin(Solve *solve, Vec t_n)
+{
+  PetscInt  n_found;
+  PetscBool any;
+  PetscFunctionBegin;
+  PetscCall(take_back(solve, &any));
+  if (any) PetscCall(redundant_find(solve, t_n, &n_found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -91,7 +91,7 @@ enum { REFUSAL_LENGTH = 256 }; /* of a sentence of refusal.c */
 typedef struct Multiplier Multiplier;
 typedef struct {
   PetscBool   suspected; /* there are nodes that may have such */
-  PetscInt    n;         /* of all ranks */
+  PetscInt    n, told;   /* of all ranks, interface by interface; so many have been told of */
   Multiplier *multipliers;
 } Redundant;
 
@@ -216,9 +216,13 @@ PetscErrorCode thrown_check(Solve *solve, Vec last, PetscReal t0, Vec x, PetscBo
 
 /* redundant.c: finds more of them at x (NULL: at u_local) and leaves them out from t_n on, so that a step must begin again; their rows */
 PetscErrorCode redundant_find(Solve *solve, Vec x, PetscInt *n_found);
+PetscErrorCode redundant_begin(Solve *solve, Vec t_n); /* contact has moved since they were found */
 PetscErrorCode redundant_residual(const Solve *solve, Vec x, Vec r);
 PetscErrorCode redundant_rows(const Solve *solve, Mat matrix);
 PetscErrorCode redundant_destroy(Solve *solve);
+
+/* undetermined.c: multipliers that the equations leave open, in words; empty: none */
+PetscErrorCode undetermined_find(Solve *solve, char why[], size_t size);
 
 /* step_size.c */
 void      step_size_start(const Steps *steps, StepSize *size);
