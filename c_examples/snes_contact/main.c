@@ -76,6 +76,7 @@ static PetscErrorCode build(Model *model, PetscInt *status)
   Contact *contact = &model->contact;
   Solve   *solve   = &model->solve;
   Field   *fields;
+  PetscInt n_redundant;
 
   PetscFunctionBegin;
   PetscCall(plex_create(&model->mesh));
@@ -105,6 +106,7 @@ static PetscErrorCode build(Model *model, PetscInt *status)
   PetscCall(supports_values(physics, 0));
   PetscCall(VecCopy(physics->prescribed_local, physics->u_local)); /* the configuration of the first sparsity pattern */
   PetscCall(newton_create(solve));
+  PetscCall(redundant_find(solve, NULL, &n_redundant));
   PetscCall(jacobian_test_create(solve, model->scene));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -116,6 +118,7 @@ static PetscErrorCode clean_up(Model *model)
   PetscCall(heat_destroy(&model->heat));
   PetscCall(newton_destroy(&model->solve));
   PetscCall(held_destroy(&model->solve));
+  PetscCall(redundant_destroy(&model->solve));
   PetscCall(times_destroy(&model->solve.steps));
   PetscCall(contact_destroy(&model->contact));
   PetscCall(physics_destroy(&model->physics));

@@ -49,6 +49,24 @@ static PetscErrorCode solve_in_turns(Model *model, Run *run, PetscBool *done)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Until every multiplier is determined, or none of those that are not can be left out. */
+static PetscErrorCode solve_determined(Model *model, Run *run, PetscBool *done)
+{
+  Solve   *solve = &model->solve;
+  PetscInt n_found;
+  PetscFunctionBegin;
+  PetscCall(redundant_begin(solve, run->past.last));
+  do {
+    n_found = 0;
+    PetscCall(solve_in_turns(model, run, done));
+    if (*done) PetscCall(undetermined_find(solve, solve->newton.why, sizeof(solve->newton.why)));
+    if (!*done || !solve->newton.why[0]) continue;
+    PetscCall(redundant_find(solve, run->x, &n_found));
+    *done = PETSC_FALSE;
+  } while (n_found);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Solve at t and commit; `last`: t is the end of the run. */
 static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool asked, PetscBool last, PetscBool *done)
 {
@@ -78,7 +96,7 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
     PetscCall(summary_failed_attempt(&model->output, run->summary, run->past.t_last));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(solve_in_turns(model, run, done));
+  PetscCall(solve_determined(model, run, done));
   if (*done) PetscCall(timed_catch(&model->physics));
   if (*done) PetscCall(remote_check(&model->physics, newton->why, sizeof(newton->why)));
   if (*done && !newton->why[0]) {

@@ -130,6 +130,7 @@ typedef struct {
   PetscInt      *prescribed, *part_of; /* n1 + n2: mask of prescribed displacements; the model's part (physics.h) */
   PetscSF        pieces;     /* from the vertices of the mesh's pieces to the nodes, until the mesh is distributed */
   PetscInt      *removed;    /* n1: mask of directions without a multiplier, see read_surfaces() */
+  PetscInt      *has_been;   /* n1: the same, before any that is redundant was left out */
   PetscBool     *middle;     /* n1: no multiplier, since it is no corner of a face */
   /* n1 + n2 vectors: coordinates; at the place of the last contact_collect() displacements and forces; equations */
   double        *X;

@@ -91,11 +91,12 @@ static PetscErrorCode settle_nodes(Scene *scene, Contact *contact, Interface *in
                mesh->dimension == 3 ? "x, y and z" : "x and y");
   describe_analytic(scene, interface);
   check_rigid(scene, contact, interface);
-  PetscCall(PetscMalloc1(n1, &interface->removed));
+  PetscCall(PetscMalloc2(n1, &interface->removed, n1, &interface->has_been));
   PetscCall(PetscCalloc1(n1, &interface->middle));
   for (PetscInt a = 0; a < n1; a++)
     interface->removed[a] = (interface->prescribed[a] & mortar_mask) | symmetry[a];
   PetscCall(remove_middles(scene, mesh, interface));
+  PetscCall(PetscArraycpy(interface->has_been, interface->removed, n1));
   PetscCall(condensed_refuse_supported(scene, contact, interface));
 
   PetscCall(find_young(contact, interface));

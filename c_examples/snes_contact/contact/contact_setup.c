@@ -254,7 +254,7 @@ PetscErrorCode contact_destroy(Contact *contact)
     PetscCall(PetscFree4(interface->X, interface->displacements, interface->forces, interface->equations));
     PetscCall(PetscFree(interface->owner));
     PetscCall(surfaces_destroy(interface));
-    PetscCall(PetscFree(interface->removed));
+    PetscCall(PetscFree2(interface->removed, interface->has_been));
     PetscCall(PetscFree(interface->middle));
   }
   PetscCall(PetscFree(contact->interfaces));

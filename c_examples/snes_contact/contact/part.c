@@ -22,21 +22,30 @@ PetscErrorCode contact_equations(const Contact *contact, PetscSF sf, PetscInt n,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Where multipliers are no unknowns the library must know which there are, nevertheless: numbers beyond all equations. */
+/* Has the k-th multiplier of the part been removed? */
+static PetscBool no_multiplier(const ContactPart *part, PetscInt k)
+{
+  const PetscInt c = part->components, removed = part->removed[k / c];
+  return (PetscBool)(c > 1 ? (removed >> k % c) & 1 : removed == 7);
+}
+
+/* The library has no multiplier that is removed, be there an unknown or not. Where multipliers are no unknowns it must know which there are,
+ * nevertheless: numbers beyond all equations. */
 static PetscErrorCode number_multipliers(const Contact *contact, ContactPart *part)
 {
   const PetscInt d = part->components;
   PetscInt       n_equations;
   Vec            x;
   PetscFunctionBegin;
-  if (!contact->condensed) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(DMGetGlobalVector(contact->mesh->dm, &x));
   PetscCall(VecGetSize(x, &n_equations));
   PetscCall(DMRestoreGlobalVector(contact->mesh->dm, &x));
   for (PetscInt k = 0; k < d * part->n1; k++) {
-    const PetscInt  removed = part->removed[k / d], i = k % d;
-    const PetscBool none    = (PetscBool)(d > 1 ? (removed >> i) & 1 : removed == 7);
-    MULTIPLIERS_OF(part, part->equations)[k] = none ? -1 : n_equations + (int64_t)d * part->nodes[k / d] + i;
+    int64_t *equation = &MULTIPLIERS_OF(part, part->equations)[k];
+    if (no_multiplier(part, k))
+      *equation = -1;
+    else if (contact->condensed)
+      *equation = n_equations + (int64_t)d * part->nodes[k / d] + k % d;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -55,8 +55,8 @@ void           energy_summary(const Output *output, struct cJSON *root);
 
 /* uniqueness.c: of a node with friction */
 PetscErrorCode uniqueness_check(Output *output, Vec x, struct cJSON *root);
-/* undetermined.c: of multipliers, before anything renews the matrix */
-PetscErrorCode undetermined_check(const Output *output, struct cJSON *root);
+/* redundant_report.c: multipliers that are left out */
+PetscErrorCode redundant_report(const Output *output, struct cJSON *root);
 /* counters.c: what the run and each interface cost */
 PetscErrorCode summary_counters(Output *output, struct cJSON *root);
 /* holdings.c: what each rank holds */

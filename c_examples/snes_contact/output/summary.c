@@ -250,7 +250,7 @@ PetscErrorCode summary_step(Output *output, Summary *summary, PetscInt step, Pet
   PetscCall(held_check_springs(solve));
   cJSON_AddNumberToObject(json, "friction_work", friction_work);
   PetscCall(energy_report(output, friction_work, json));
-  if (last) PetscCall(undetermined_check(output, summary->root));
+  if (last) PetscCall(redundant_report(output, summary->root));
   PetscCall(VecDuplicate(physics->u_local, &summary->state));
   PetscCall(VecCopy(physics->u_local, summary->state));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -89,6 +89,14 @@ typedef struct {
 
 enum { REFUSAL_LENGTH = 256 }; /* of a sentence of refusal.c */
 
+/* Multipliers that are left out, since others do what they do (redundant.c) */
+typedef struct Multiplier Multiplier;
+typedef struct {
+  PetscBool   suspected; /* there are nodes that may have such */
+  PetscInt    n, told;   /* of all ranks, interface by interface; so many have been told of */
+  Multiplier *multipliers;
+} Redundant;
+
 typedef enum { SOLVER_DIRECT, SOLVER_ITERATIVE, SOLVER_AUTO } SolverKind;
 
 /* How linear systems are solved, and how that went (iterative.c) */
@@ -114,6 +122,7 @@ typedef struct {
   Linear    linear;
   PetscInt  room, n_raised;     /* workspace that MUMPS is allowed, in per cent; how often it wanted more */
   Held      held;
+  Redundant redundant;
   PetscInt  iterations;         /* of Newton, spent on the present step, failed attempts included */
   PetscReal size, stiffness;    /* of the model */
   struct cJSON  *jacobian_tests; /* of the present step (jacobian_test.c); NULL: none */
@@ -206,6 +215,16 @@ PetscErrorCode held_describe(const Solve *solve, char text[], size_t length);
 
 /* thrown.c: has an attempt thrown out a body that contact alone holds? */
 PetscErrorCode thrown_check(Solve *solve, Vec last, PetscReal t0, Vec x, PetscBool *thrown, char why[], size_t length);
+
+/* redundant.c: finds more of them at x (NULL: at u_local) and leaves them out from t_n on, so that a step must begin again; their rows */
+PetscErrorCode redundant_find(Solve *solve, Vec x, PetscInt *n_found);
+PetscErrorCode redundant_begin(Solve *solve, Vec t_n); /* contact has moved since they were found */
+PetscErrorCode redundant_residual(const Solve *solve, Vec x, Vec r);
+PetscErrorCode redundant_rows(const Solve *solve, Mat matrix);
+PetscErrorCode redundant_destroy(Solve *solve);
+
+/* undetermined.c: multipliers that the equations leave open, in words; empty: none */
+PetscErrorCode undetermined_find(Solve *solve, char why[], size_t size);
 
 /* step_size.c */
 void      step_size_start(const Steps *steps, StepSize *size);

@@ -32,6 +32,7 @@ static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
   PetscCall(parts_measure(solve->physics));
   if (!inverted && !refused) PetscCall(condensed_residual(solve->contact, r, &refused));
   PetscCall(timed_residual(solve->physics, solve->stiffness, r));
+  PetscCall(redundant_residual(solve, x, r));
   solve->outside = (PetscBool)(inverted || refused);
   if (solve->outside) PetscCall(SNESSetFunctionDomainError(snes));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -56,6 +57,7 @@ static PetscErrorCode tangent(SNES snes, Vec x, Mat J, Mat P, void *context)
   PetscCall(contact_tangent(solve->contact, P, &refused));
   PetscCall(PetscTime(&end));
   solve->contact->seconds_tangent += end - start;
+  PetscCall(redundant_rows(solve, P));
   PetscCall(MatAssemblyBegin(P, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(P, MAT_FINAL_ASSEMBLY));
   if (!inverted && !refused) PetscCall(closing_shift(solve, P));

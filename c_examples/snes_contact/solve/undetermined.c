@@ -1,11 +1,9 @@
-/* Do the equations say what every multiplier is? Where supports hold nodes of both surfaces, as of two tied bodies at one wall, a
- * row of multipliers may push on nothing that can move. Newton's method converges all the same, displacements are right, and the
- * tractions there are whatever the linear solver left.
+/* Do the equations say what every multiplier is? Where nothing tells two of them apart, or one pushes on nothing that can move, the matrix is
+ * singular, forces balance all the same, and the tractions there are whatever the linear solver left.
  *
- * The last factors J ~ LU of a run find it: b = J z with multipliers z of our choice, and J y = b gives back y = z, but for what
+ * The last factors J ~ LU of a step find it: b = J z with multipliers z of our choice, and J y = b gives back y = z, but for what
  * is not determined. */
-#include "output/output.h"
-#include <cjson/cJSON.h>
+#include "solve/redundant.h"
 #include <math.h>
 
 /* z has entries of about 1. What is determined comes back to rounding times the condition of J, some 1e-16 times 1e10 at most. */
@@ -15,17 +13,6 @@ typedef struct {
   PetscInt  multipliers; /* that do not come back */
   PetscReal worst, X[3]; /* how far from it, and at which node */
 } Undetermined;
-
-/* May supports leave multipliers of this interface alone? */
-static PetscErrorCode is_supported(const Interface *interface, PetscBool *supported)
-{
-  PetscFunctionBegin;
-  *supported = PETSC_FALSE;
-  for (PetscInt a = 0; a < interface->n1 && !*supported; a++)
-    *supported = (PetscBool)(interface->prescribed[a] != 0 && interface->removed[a] != 7);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, supported, 1, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 /* the same on every rank and in every run, and different from node to node */
 static PetscReal chosen(int64_t equation)
@@ -97,40 +84,36 @@ static PetscErrorCode compare(const Mesh *mesh, const Interface *interface, Vec 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode tell(const Interface *interface, const Undetermined *found, cJSON *parent)
+/* Of the interfaces that one with most multipliers left open, in words. */
+static PetscErrorCode describe(const Interface *interface, const Undetermined *found, char why[], size_t size)
 {
-  cJSON *json = cJSON_AddObjectToObject(parent, interface->name);
   PetscFunctionBegin;
-  cJSON_AddNumberToObject(json, "multipliers", (double)found->multipliers);
-  cJSON_AddItemToObject(json, "position", cJSON_CreateDoubleArray(found->X, 3));
-  PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
-                         "snes_contact: warning: %" PetscInt_FMT " multipliers of %s, most at (%g, %g, %g), are not determined by the "
-                         "equations: supports hold nodes of both its surfaces, and some tractions near there push on nothing that can "
-                         "move. Displacements are right, tractions there are not. Let the side with fewer nodes along the supports be `nonmortar`, "
-                         "with `basis: standard`, or take its nodes there out of the supports: the interface holds them.\n",
-                         found->multipliers, interface->name, (double)found->X[0], (double)found->X[1], (double)found->X[2]));
+  PetscCall(PetscSNPrintf(why, size,
+                          "%" PetscInt_FMT " multipliers of %s, most at (%g, %g, %g), are not determined by the equations: what they push cannot "
+                          "move, or other multipliers push it as well. Where interfaces share nodes, make one of them; where supports hold "
+                          "nodes of both surfaces, take those of the `nonmortar` side out of the supports, or swap the sides",
+                          found->multipliers, interface->name, (double)found->X[0], (double)found->X[1], (double)found->X[2]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* After the last step of a run, while the factors of its last matrix are there: direct solver, multipliers among the unknowns. */
-PetscErrorCode undetermined_check(const Output *output, cJSON *root)
+/* At a converged state, while the factors of its last matrix are there: direct solver, multipliers among the unknowns. */
+PetscErrorCode undetermined_find(Solve *solve, char why[], size_t size)
 {
-  const Contact       *contact = output->contact;
-  Solve               *solve   = output->solve;
+  const Contact       *contact = solve->contact;
   const PetscLogDouble seconds = solve->seconds; /* what is measured is the run */
-  PetscBool            needed = PETSC_FALSE, direct;
+  PetscInt             most = 0;
+  PetscBool            direct;
   KSPConvergedReason   reason;
   KSP                  ksp;
   Mat                  J;
   Vec                  z, b, y;
-  cJSON               *json;
 
   PetscFunctionBegin;
+  why[0] = 0;
+  if (!solve->redundant.suspected || !solve->newton.iterations) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SNESGetKSP(solve->snes, &ksp));
   PetscCall(PetscObjectTypeCompare((PetscObject)ksp, KSPPREONLY, &direct));
-  for (PetscInt i = 0; i < contact->n_interfaces && direct && !contact->condensed && !needed; i++)
-    PetscCall(is_supported(&contact->interfaces[i], &needed));
-  if (!needed || !solve->iterations) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!direct) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(KSPGetOperators(ksp, &J, NULL));
   PetscCall(MatCreateVecs(J, &z, &b));
   PetscCall(VecDuplicate(z, &y));
@@ -138,16 +121,12 @@ PetscErrorCode undetermined_check(const Output *output, cJSON *root)
   PetscCall(MatMult(J, z, b));
   PetscCall(KSPSolve(ksp, b, y));
   PetscCall(KSPGetConvergedReason(ksp, &reason));
-  json = cJSON_CreateObject();
   for (PetscInt i = 0; i < contact->n_interfaces && reason >= 0; i++) {
     Undetermined found;
-    PetscCall(compare(output->mesh, &contact->interfaces[i], y, &found));
-    if (found.multipliers) PetscCall(tell(&contact->interfaces[i], &found, json));
+    PetscCall(compare(solve->mesh, &contact->interfaces[i], y, &found));
+    if (found.multipliers > most) PetscCall(describe(&contact->interfaces[i], &found, why, size));
+    most = PetscMax(most, found.multipliers);
   }
-  if (json->child)
-    cJSON_AddItemToObject(root, "undetermined", json);
-  else
-    cJSON_Delete(json);
   PetscCall(VecDestroy(&z));
   PetscCall(VecDestroy(&b));
   PetscCall(VecDestroy(&y));

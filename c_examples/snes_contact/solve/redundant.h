@@ -1,0 +1,16 @@
+/* Conditions of contact that follow from others: which ones, and that they are left out (redundant.c, dependent.c). */
+#ifndef SNES_CONTACT_REDUNDANT_H
+#define SNES_CONTACT_REDUNDANT_H
+#include "solve/solve.h"
+
+/* A multiplier that may be redundant: its equation, of which component of which node of which interface; where that is, and what is
+ * covered of the node. */
+struct Multiplier {
+  PetscInt  equation, interface, number, component;
+  PetscBool tied;
+  PetscReal X[3], coverage;
+};
+
+/* dependent.c: of `n` multipliers whose products S (n x n, overwritten) are: which follow from those before them */
+void dependent_find(PetscInt n, const Multiplier multipliers[], PetscReal S[], PetscBool dependent[]);
+#endif
