@@ -209,6 +209,13 @@ for step in range(1, steps + 1):
     problem.function(snes, problem.x, snes.getFunction()[0])  # the forces of the solution
     point = part.point(problem.values(problem.x))
     states = part.face.states(*point).state[part.own]  # before the commit
+    try:
+        part.face.commit_check(*point)  # all processes accept the step, or none
+        refusal = ""
+    except stickslip.Error as error:
+        refusal = str(error)
+    if over_ranks([bool(refusal)], "max")[0]:  # a code of your own would take a smaller step
+        raise SystemExit(f"step {step} converges, but cannot be committed: {refusal or 'another process refuses'}")
     part.face.commit(*point)
     pressed = point[2][part.own][:, 2]
     least, most = over_ranks([-pressed.min(), pressed.max()], "max") * (-1, 1)

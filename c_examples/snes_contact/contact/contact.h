@@ -159,6 +159,9 @@ typedef struct {
   char           modulus_from[64];        /* with decisions at points: what the modulus of both bodies is made of */
   stickslip_equilibrium equilibrium;      /* of this part, as last judged (equilibrium.c) */
   Frozen                slide, turn;
+  Frozen                overlap, apart, lag; /* over the library's scales, see unseen.c */
+  PetscReal             lag_force;           /* of all nodes, over what they press with */
+  PetscReal             depth;               /* how far the bodies overlap there */
 } Interface;
 
 /* How the search for equilibrium goes (equilibrium.c) */
@@ -431,6 +434,12 @@ void           equilibrium_accept(Contact *contact);
 /* slide.c */
 PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t length);
 PetscErrorCode slide_accept(Contact *contact);
+PetscErrorCode slide_find(const Interface *interface, const Mesh *mesh, double found, int64_t node, Frozen *frozen, PetscReal where[4]);
+
+/* unseen.c */
+PetscErrorCode unseen_check(Contact *contact, PetscReal *ratio, char why[], size_t length);
+PetscErrorCode unseen_accept(Contact *contact);
+PetscErrorCode unseen_end(const Contact *contact);
 /* kept.c: what persistent weights leave of an overlap at the start; after contact_gather() */
 PetscErrorCode kept_tell(const Contact *contact, const Interface *interface);
 
