@@ -373,6 +373,8 @@ module stickslip
     integer(c_int64_t) :: nodes_several = 0
     integer(c_int32_t) :: finding = STICKSLIP_FINDING_NONE ! output
     integer(c_int32_t) :: reserved = 0
+    real(c_double) :: lag_force = 0                ! the same times area, summed up over the nodes [F]
+    real(c_double) :: lag_force_scale = 0
     real(c_double) :: penetration = 0              ! output: the deepest [L]
   end type
 
@@ -493,6 +495,14 @@ module stickslip
     integer(c_int64_t) :: slide_node = -1
     real(c_double) :: turn = 0                     ! since weights of the reference were made, by the part of the pressure [rad]
     integer(c_int64_t) :: turn_node = -1
+    real(c_double) :: lag = 0                      ! of tractions, by the normals of now [F/L^2]; compare with traction_scale
+    integer(c_int64_t) :: lag_node = -1
+    real(c_double) :: penetration = 0              ! real overlap at a point [L]
+    real(c_double) :: penetration_scale = 0
+    integer(c_int64_t) :: penetration_node = -1
+    real(c_double) :: apart = 0                    ! real distance where a node presses [L]
+    real(c_double) :: apart_scale = 0
+    integer(c_int64_t) :: apart_node = -1
   end type
 
   ! A rigid body: nodes that move with a reference point. Of lines (dimension 2) vectors have two numbers.
@@ -932,6 +942,14 @@ module stickslip
 
     ! Accepts a converged step: x1(3, n1), x2(3, n2), lambda(3, n1) become t_n.
     integer(c_int32_t) function stickslip_interface_commit(interface, x1, x2, lambda, sums) bind(C)
+      import :: c_double, c_int32_t, c_ptr, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *), lambda(3, *)
+      type(c_ptr), value :: sums
+    end function
+
+    ! Whether the commit would accept the step; nothing changes.
+    integer(c_int32_t) function stickslip_interface_commit_check(interface, x1, x2, lambda, sums) bind(C)
       import :: c_double, c_int32_t, c_ptr, stickslip_interface
       type(stickslip_interface), value :: interface
       real(c_double), intent(in) :: x1(3, *), x2(3, *), lambda(3, *)

@@ -1087,6 +1087,35 @@ typedef struct stickslip_equilibrium {
   double turn;
   /// Output: the node of turn.
   int64_t turn_node;
+  /// Output: what of a traction the law would not allow if it had turned with the surface since t_n, the largest; compare it with
+  /// traction_scale. No violation, and 0 with normals of now, with those of the host, and of tied surfaces. With STICKSLIP_NORMALS_COMMITTED
+  /// pressure acts along the normals of t_n, so that a step that turns a surface is wrong by about this: beyond 0.01 tell it, beyond 0.1 take
+  /// a smaller step, or STICKSLIP_NORMALS_CURRENT [F/L^2].
+  double lag;
+  /// Output: the node of lag.
+  int64_t lag_node;
+  /// Output: the same over the interface: lag times area, summed up over the nodes, so that parts of an interface add up; 0 as lag. Beyond
+  /// 0.02 of its scale forces are wrong by more than a mesh shows [F].
+  double lag_force;
+  /// Output: what to compare it with: the tractions times area in the same way; of a node that slips friction's part alone, where that is a tenth
+  /// of it or more [F].
+  double lag_force_scale;
+  /// Output: how far a node of either side is really in the other body, whatever the weighted gaps say, beyond what the sagittas of
+  /// curved facets are; the largest over penetration_scale. No violation; 0 of tied surfaces. Facets that are coarser than the contact
+  /// do not feel it, and overlaps that count as closed press nothing: beyond 0.03 of its scale tell it, beyond 0.1 the
+  /// step is wrong. Facets that are finer than the contact as non-mortar side, or STICKSLIP_DECISION_POINTS, see more [L].
+  double penetration;
+  /// Output: what to compare it with: the longest edge of the smaller facet there times 10 traction_scale / modulus, at most 1 and at
+  /// least 0.1; without a modulus 1, or 0.1 where nothing presses [L].
+  double penetration_scale;
+  /// Output: the non-mortar node nearest to penetration.
+  int64_t penetration_node;
+  /// Output: how far apart the surfaces really are all around a node that presses, in the same way; the largest over apart_scale [L].
+  double apart;
+  /// Output: what to compare it with, as penetration_scale [L].
+  double apart_scale;
+  /// Output: the node of apart.
+  int64_t apart_node;
 } stickslip_equilibrium;
 
 /// A rigid body: nodes that move with a reference point, those of a surface of one interface or of several, or any others.
@@ -1870,6 +1899,19 @@ int32_t stickslip_interface_commit(struct stickslip_interface *interface,
                                    const double *x2,
                                    const double *lambda,
                                    const double *sums);
+
+/// Whether `stickslip_interface_commit` would accept the step: STICKSLIP_OK, or its refusal; nothing changes. For hosts that commit several
+/// interfaces, or parts on several processes, or none: ask all of them, then commit.
+///
+/// Inputs x1, x2, lambda, sums as for the commit.
+///
+/// Errors: those of `stickslip_interface_commit`.
+/// Cost: as `stickslip_interface_commit`; the evaluation or commit that follows integrates. Allocates.
+int32_t stickslip_interface_commit_check(struct stickslip_interface *interface,
+                                         const double *x1,
+                                         const double *x2,
+                                         const double *lambda,
+                                         const double *sums);
 
 /// Undoes the last commit exactly. A step that was never committed needs no rollback: evaluations do not
 /// touch the history. Only one commit can be undone.

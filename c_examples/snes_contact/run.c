@@ -102,6 +102,7 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
   if (*done && !newton->why[0]) {
     PetscCall(slide_check(&model->contact, &newton->slid, newton->why, sizeof(newton->why)));
     if (!newton->why[0]) PetscCall(kept_check(&model->contact, newton->why, sizeof(newton->why)));
+    if (!newton->why[0]) PetscCall(unseen_check(&model->contact, &newton->slid, newton->why, sizeof(newton->why)));
     newton->refused_commit = (PetscBool)(newton->why[0] != 0);
   }
   if (*done && newton->why[0]) *done = PETSC_FALSE;
@@ -141,6 +142,7 @@ static PetscErrorCode accept(Model *model, Run *run)
   equilibrium_accept(&model->contact);
   PetscCall(slide_accept(&model->contact));
   PetscCall(kept_accept(&model->contact));
+  PetscCall(unseen_accept(&model->contact));
   condensed_accept(&model->contact);
   PetscCall(contact_share_out(&model->contact));
   PetscCall(solver_refresh_pattern(&model->solve));
@@ -233,6 +235,7 @@ PetscErrorCode run(Model *model, int *exit_code)
     PetscCall(summary_step(&model->output, run.summary, run.step + 1, PETSC_FALSE, PETSC_FALSE, PETSC_TRUE));
     PetscCall(give_up(model, &run, exit_code));
   }
+  if (!failed) PetscCall(unseen_end(&model->contact));
   PetscCall(summary_write(&model->output, &run.summary, run.past.last, run.n_cutbacks,
                           *exit_code == 2 ? model->solve.newton.why : model->contact.refusal));
   PetscCall(run_destroy(&run));

@@ -207,18 +207,17 @@ problem.x.assemble()
 
 
 def accepted(point):
-    """Whether every process' part takes the step; if one does not, none has."""
+    """Commits where every process' part would: all of them, or none."""
+    refusal = ""
     try:
-        part.face.commit(*point)
-        refused = False
-    except stickslip.Error as why:
-        refused = True
-        print(f"rank {rank}: {why}", file=sys.stderr)
-    if not over_ranks([refused], "max")[0]:
-        return True
-    if not refused:
-        part.face.rollback()
-    return False
+        part.face.commit_check(*point)
+    except stickslip.Error as error:
+        refusal = str(error)
+        print(f"rank {rank}: {refusal}", file=sys.stderr)
+    if over_ranks([bool(refusal)], "max")[0]:
+        return False
+    part.face.commit(*point)
+    return True
 
 
 def attempt(time):

@@ -98,6 +98,7 @@ def solve(make_body, patch, steps, moves_along=False):
             else:
                 raise SystemExit(f"step {step} does not converge")
             states = face.states(*point)  # before the commit
+            face.check_step(*point, modulus=young)  # what no residual knows
             face.commit(*point)
             reactions.append(residual[top].sum(axis=0))
             gap, stick, slip = (int((states.state == stickslip.constants[f"STATE_{name}"]).sum())

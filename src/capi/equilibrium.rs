@@ -62,6 +62,35 @@ pub struct stickslip_equilibrium {
     pub turn: f64,
     /// Output: the node of turn.
     pub turn_node: i64,
+    /// Output: what of a traction the law would not allow if it had turned with the surface since t_n, the largest; compare it with
+    /// traction_scale. No violation, and 0 with normals of now, with those of the host, and of tied surfaces. With STICKSLIP_NORMALS_COMMITTED
+    /// pressure acts along the normals of t_n, so that a step that turns a surface is wrong by about this: beyond 0.01 tell it, beyond 0.1 take
+    /// a smaller step, or STICKSLIP_NORMALS_CURRENT [F/L^2].
+    pub lag: f64,
+    /// Output: the node of lag.
+    pub lag_node: i64,
+    /// Output: the same over the interface: lag times area, summed up over the nodes, so that parts of an interface add up; 0 as lag. Beyond
+    /// 0.02 of its scale forces are wrong by more than a mesh shows [F].
+    pub lag_force: f64,
+    /// Output: what to compare it with: the tractions times area in the same way; of a node that slips friction's part alone, where that is a tenth
+    /// of it or more [F].
+    pub lag_force_scale: f64,
+    /// Output: how far a node of either side is really in the other body, whatever the weighted gaps say, beyond what the sagittas of
+    /// curved facets are; the largest over penetration_scale. No violation; 0 of tied surfaces. Facets that are coarser than the contact
+    /// do not feel it, and overlaps that count as closed press nothing: beyond 0.03 of its scale tell it, beyond 0.1 the
+    /// step is wrong. Facets that are finer than the contact as non-mortar side, or STICKSLIP_DECISION_POINTS, see more [L].
+    pub penetration: f64,
+    /// Output: what to compare it with: the longest edge of the smaller facet there times 10 traction_scale / modulus, at most 1 and at
+    /// least 0.1; without a modulus 1, or 0.1 where nothing presses [L].
+    pub penetration_scale: f64,
+    /// Output: the non-mortar node nearest to penetration.
+    pub penetration_node: i64,
+    /// Output: how far apart the surfaces really are all around a node that presses, in the same way; the largest over apart_scale [L].
+    pub apart: f64,
+    /// Output: what to compare it with, as penetration_scale [L].
+    pub apart_scale: f64,
+    /// Output: the node of apart.
+    pub apart_node: i64,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -117,8 +146,10 @@ pub unsafe extern "C" fn stickslip_interface_equilibrium(
             either!(&mut h.inner, c => c.equilibrium(point.x1(), point.x2(), point.lambda(), point.sums(), &scales)?);
         let node = |largest: &Largest| largest.node.map_or(-1, |a| a as i64 + h.base);
         let (gap, traction, slip, slide, turn) = (found.gap, found.traction, found.slip, found.slide, found.turn);
-        let numbers = [gap, traction, slip, slide, turn].map(|l| [l.value, l.scale]);
+        let (lag, penetration, apart) = (found.lag, found.penetration, found.apart);
+        let numbers = [gap, traction, slip, slide, turn, lag, penetration, apart].map(|l| [l.value, l.scale]);
         raw::check_results("equilibrium", numbers.as_flattened())?;
+        raw::check_results("equilibrium", &found.lag_force)?;
         sized::write(
             out,
             stickslip_equilibrium {
@@ -136,6 +167,16 @@ pub unsafe extern "C" fn stickslip_interface_equilibrium(
                 slide_node: node(&slide),
                 turn: turn.value,
                 turn_node: node(&turn),
+                lag: lag.value,
+                lag_node: node(&lag),
+                lag_force: found.lag_force[0],
+                lag_force_scale: found.lag_force[1],
+                penetration: penetration.value,
+                penetration_scale: penetration.scale,
+                penetration_node: node(&penetration),
+                apart: apart.value,
+                apart_scale: apart.scale,
+                apart_node: node(&apart),
                 ..given
             },
         );

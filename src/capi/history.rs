@@ -33,6 +33,28 @@ pub unsafe extern "C" fn stickslip_interface_commit(
     })
 }
 
+/// Whether `stickslip_interface_commit` would accept the step: STICKSLIP_OK, or its refusal; nothing changes. For hosts that commit several
+/// interfaces, or parts on several processes, or none: ask all of them, then commit.
+///
+/// Inputs x1, x2, lambda, sums as for the commit.
+///
+/// Errors: those of `stickslip_interface_commit`.
+/// Cost: as `stickslip_interface_commit`; the evaluation or commit that follows integrates. Allocates.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_commit_check(
+    interface: *mut stickslip_interface,
+    x1: *const f64,
+    x2: *const f64,
+    lambda: *const f64,
+    sums: *const f64,
+) -> i32 {
+    guard(|| {
+        let h = &mut handle(interface)?.inner;
+        let point = Point::read(h, x1, x2, lambda, sums)?;
+        either!(h, c => c.check_commit(point.x1(), point.x2(), point.lambda(), point.sums()))
+    })
+}
+
 /// Undoes the last commit exactly. A step that was never committed needs no rollback: evaluations do not
 /// touch the history. Only one commit can be undone.
 ///

@@ -9,6 +9,7 @@ pub mod double_double;
 pub mod edge_interval;
 mod facet;
 mod near_line;
+mod over;
 mod plane;
 mod projection;
 mod spin;
@@ -16,6 +17,7 @@ mod vector;
 
 pub use analytic_surface::{AnalyticShape, AnalyticSurface, Closest, FRAME, check_rigid_motion, in_plane};
 pub use facet::Facet;
+pub use over::{OUTSIDE, Over};
 pub use plane::Plane;
 pub use projection::Projection;
 pub use spin::Spin;

@@ -359,6 +359,36 @@ impl<const N: usize> Contact<N> {
         lambda: &[SVector<f64, N>],
         sums: Option<&[NodeSums]>,
     ) -> Result<()> {
+        let (next, active, points) = self.next((x1, x2), lambda, sums)?;
+        let old = self.put_in_place(next.pairing, next.history, active);
+        if let Some(points) = points {
+            self.cache.settle_points(points);
+        }
+        self.spare = self.rollback.replace(old);
+        Ok(())
+    }
+
+    /// Whether [`Contact::commit`] would accept the step: its refusals, and nothing changes.
+    pub fn check_commit(
+        &mut self,
+        x1: &[Vec3],
+        x2: &[Vec3],
+        lambda: &[SVector<f64, N>],
+        sums: Option<&[NodeSums]>,
+    ) -> Result<()> {
+        let (next, ..) = self.next((x1, x2), lambda, sums)?;
+        self.spare = Some(next.history);
+        Ok(())
+    }
+
+    /// The step that follows a converged one, with whether the pairs are those where it begins, and the points that are to remember what
+    /// those of this step have answered at these multipliers.
+    fn next(
+        &mut self,
+        (x1, x2): (&[Vec3], &[Vec3]),
+        lambda: &[SVector<f64, N>],
+        sums: Option<&[NodeSums]>,
+    ) -> Result<(Step, bool, Option<Points>)> {
         let (extent, shared) = (Extent::of(sums), sums.is_some());
         if self.step.normals != self.setup.options.normals {
             let text = "commit of a step that was solved with the normals of its start alone: with STICKSLIP_NORMALS_CURRENT these are for the first phase; call stickslip_interface_use_normals(..., STICKSLIP_NORMALS_CURRENT) and solve on";
@@ -392,24 +422,18 @@ impl<const N: usize> Contact<N> {
         }
         memory::recopy(&mut new.history.states, &answers.responses.own.states)?;
         new.history.check_finite()?;
-        let old = match self.setup.has_point_friction() && options.effective_weights() != Weights::Reference {
-            true => self.adopt_points(new, lambda)?,
-            false => self.adopt(new)?,
-        };
-        self.spare = self.rollback.replace(old);
-        Ok(())
-    }
-
-    /// The same of a history with other points, which are to remember what those of this step have answered at these multipliers.
-    fn adopt_points(&mut self, mut settled: Settled, lambda: &[SVector<f64, N>]) -> Result<History> {
-        settled.history.states.clear();
-        let mut next = self.begin(Pairing::new(&self.setup, settled.filter, &settled.history)?, settled.history);
+        let remembers = self.setup.has_point_friction() && options.effective_weights() != Weights::Reference;
+        if remembers {
+            new.history.states.clear();
+        }
+        let mut next = self.begin(Pairing::new(&self.setup, new.filter, &new.history)?, new.history);
+        if !remembers {
+            return Ok((next, new.active, None));
+        }
         let (points, x1) = (&self.cache.answers().responses.points, &self.step.history.x1);
         let mut anew = Points::default();
         next.history.states = anew.remember(Given { setup: &self.setup, step: &next }, lambda, (points, x1))?;
-        let old = self.put_in_place(next.pairing, next.history, settled.active);
-        self.cache.settle_points(anew);
-        Ok(old)
+        Ok((next, new.active, Some(anew)))
     }
 
     /// A step that begins, to be looked at before it is put in place.

@@ -173,7 +173,7 @@ impl<const N: usize> Contact<N> {
         let (_, answers, work) = self.cache.acting(self.setup.surfaces(), &self.step.history);
         let known = (&answers.sums[..], &answers.responses.carried[..], &answers.responses.nodes[..]);
         let given = Given { setup: &self.setup, step: &self.step };
-        equilibrium::equilibrium(given, (x1, x2), lambda, known, scope, (scales, &mut work.room.vectors))
+        equilibrium::equilibrium(given, (x1, x2), lambda, known, scope, (scales, work))
     }
 
     /// Which nodes are covered, and how, at (x1, x2), however far apart the surfaces are there.

@@ -142,6 +142,7 @@ FUNCTION(interface_condensed_values, (a[0], a[1], a[2], a[3], a[4], a[5]), AT, {
 FUNCTION(interface_step_limit, (a[0], a[1], a[2], a[3], a[4], b.penetration, a[5]), AT, {"dx1", b.dx1, NEEDED},
          {"dx2", b.dx2, NEEDED}, {"fraction", &H.fraction, NEEDED})
 FUNCTION(interface_commit, (a[0], a[1], a[2], a[3], a[4]), POINT)
+FUNCTION(interface_commit_check, (a[0], a[1], a[2], a[3], a[4]), POINT)
 FUNCTION(interface_rollback, (a[0]), INTERFACE)
 FUNCTION(interface_history_size, (a[0], a[1], a[2]), INTERFACE, {"n_integers", &b.every.history.n_integers, NEEDED},
          {"n_reals", &b.every.history.n_reals, NEEDED})
@@ -233,7 +234,7 @@ static const struct {
     NAMED(interface_set_committed),
     NAMED(interface_initial_multipliers), NAMED(interface_sums), NAMED(interface_states), NAMED(interface_residual),
     NAMED(interface_tangent_coo), NAMED(interface_tangent_csr), NAMED(interface_pattern_coo),
-    NAMED(interface_step_limit), NAMED(interface_commit), NAMED(interface_rollback), NAMED(interface_history_size),
+    NAMED(interface_step_limit), NAMED(interface_commit), NAMED(interface_commit_check), NAMED(interface_rollback), NAMED(interface_history_size),
     NAMED(interface_history_export), NAMED(interface_history_import), NAMED(interface_counters),
     NAMED(interface_effects), NAMED(interface_report), NAMED(interface_diagnose), NAMED(interface_equilibrium),
     NAMED(interface_set_offsets), NAMED(interface_adjust), NAMED(interface_shape_offsets),

@@ -230,6 +230,10 @@ static inline int32_t call_interface_commit(handle *h) {
   scene *s = &h->s;
   return stickslip_interface_commit(s->interface, s->x1, s->x2, s->lambda, NULL);
 }
+static inline int32_t call_interface_commit_check(handle *h) {
+  scene *s = &h->s;
+  return stickslip_interface_commit_check(s->interface, s->x1, s->x2, s->lambda, NULL);
+}
 static inline int32_t call_interface_limit(handle *h) {
   static double dx1[X1], dx2[X2];
   dx1[0] = 1.0;

@@ -265,6 +265,7 @@ static inline int32_t every_count(every *c) {
 }
 static inline int32_t every_pattern(every *c) { return call_interface_pattern(&c->h); }
 static inline int32_t every_commit(every *c) { return call_interface_commit(&c->h); }
+static inline int32_t every_commit_check(every *c) { return call_interface_commit_check(&c->h); }
 static inline int32_t every_rollback(every *c) { return stickslip_interface_rollback(c->h.s.interface); }
 static inline int32_t every_history_size(every *c) {
   return stickslip_interface_history_size(c->h.s.interface, &c->history.n_integers, &c->history.n_reals);
@@ -527,6 +528,7 @@ static const entry_point every_call[] = {
     {"interface_residual, normals of t_n", every_residual},
     {"interface_use_normals, as created", every_use_normals},
     {"interface_turn_multipliers", every_turn_multipliers},
+    {"interface_commit_check", every_commit_check},
     {"interface_commit", every_commit},
     {"interface_residual, committed", every_residual},
     {"interface_history_size", every_history_size},
@@ -632,10 +634,11 @@ static inline int32_t every_refusal(int k) {
     case 80:
       return stickslip_interface_heat_tangent_coo(NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0, 0, NULL, NULL, NULL, NULL);
     case 81: return stickslip_node_heat(NULL, 0.0, 0.0, 0.0, 1.0, 0.0, NULL, NULL, NULL);
+    case 82: return stickslip_interface_commit_check(NULL, NULL, NULL, NULL, NULL);
     default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
   }
 }
-enum { REFUSALS = 83 };
+enum { REFUSALS = 84 };
 
 /* Room and sizes for the structs that come out. */
 static inline void every_room(every *c) {

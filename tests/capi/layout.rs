@@ -177,7 +177,17 @@ fn layouts() -> Vec<Layout> {
             slide_scale,
             slide_node,
             turn,
-            turn_node
+            turn_node,
+            lag,
+            lag_node,
+            lag_force,
+            lag_force_scale,
+            penetration,
+            penetration_scale,
+            penetration_node,
+            apart,
+            apart_scale,
+            apart_node
         }),
         layout!(stickslip_law { struct_size, kind, reserved, cohesion, mu_after, critical_slip, mu_across, direction }),
         layout!(stickslip_law_point { struct_size, node, normal, slip, slip_before, direction, mu }),

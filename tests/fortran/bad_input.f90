@@ -203,6 +203,8 @@ contains
       status = stickslip_interface_step_limit(interface_, h%s%x1, h%s%x2, dx1, dx2, penetration, h%fraction)
     case ('interface_commit')
       status = stickslip_interface_commit(interface_, h%s%x1, h%s%x2, h%s%lambda, at('sums'))
+    case ('interface_commit_check')
+      status = stickslip_interface_commit_check(interface_, h%s%x1, h%s%x2, h%s%lambda, at('sums'))
     case ('interface_rollback')
       status = stickslip_interface_rollback(interface_)
     case ('interface_history_size')

@@ -164,6 +164,9 @@ typedef struct {
   Frozen                slide, turn;
   double                kept;                 /* with persistent weights: the deepest overlap at the start, over a facet's edge */
   Frozen                sunk;                 /* likewise: what it has grown by since */
+  Frozen                overlap, apart, lag; /* over the library's scales, see unseen.c */
+  PetscReal             lag_force;           /* of all nodes, over what they press with */
+  PetscReal             depth;               /* how far the bodies overlap there */
 } Interface;
 
 /* How the search for equilibrium goes (equilibrium.c) */
@@ -439,6 +442,12 @@ PetscErrorCode contact_sound(Contact *contact, char why[], size_t length);
 /* slide.c */
 PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t length);
 PetscErrorCode slide_accept(Contact *contact);
+PetscErrorCode slide_find(const Interface *interface, const Mesh *mesh, double found, int64_t node, Frozen *frozen, PetscReal where[4]);
+
+/* unseen.c */
+PetscErrorCode unseen_check(Contact *contact, PetscReal *ratio, char why[], size_t length);
+PetscErrorCode unseen_accept(Contact *contact);
+PetscErrorCode unseen_end(const Contact *contact);
 /* kept.c: what persistent weights leave of overlaps: of that at the start, after contact_gather(); by how much they have grown since, at a
  * converged state: why the step does not count; and told, where it does */
 PetscErrorCode kept_tell(const Contact *contact, Interface *interface);

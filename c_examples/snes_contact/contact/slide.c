@@ -6,7 +6,7 @@
 #include "contact/contact.h"
 
 /* Over all ranks, of the last evaluation that was judged: what a part has found, and where[0:3], the node. */
-static PetscErrorCode find_largest(const Interface *interface, const Mesh *mesh, double found, int64_t node, Frozen *frozen, PetscReal where[4])
+PetscErrorCode slide_find(const Interface *interface, const Mesh *mesh, double found, int64_t node, Frozen *frozen, PetscReal where[4])
 {
   const ContactPart *part = &interface->part;
   PetscFunctionBegin;
@@ -23,7 +23,7 @@ static PetscErrorCode measure_slide(Interface *interface, const Mesh *mesh)
   Frozen                      *slide    = &interface->slide;
   PetscReal                    where[4] = {0, 0, 0, e->slide};
   PetscFunctionBegin;
-  PetscCall(find_largest(interface, mesh, e->slide > 0 ? e->slide / e->slide_scale : 0, e->slide_node, slide, where));
+  PetscCall(slide_find(interface, mesh, e->slide > 0 ? e->slide / e->slide_scale : 0, e->slide_node, slide, where));
   PetscCall(PetscSNPrintf(slide->words, sizeof(slide->words),
                           "%s has slid by %.2g since its weights were made, %.2g times the size of the facets at (%g, %g, %g)",
                           interface->name, (double)where[3], (double)slide->amount, (double)where[0], (double)where[1],
@@ -43,7 +43,7 @@ static PetscErrorCode measure_turn(Interface *interface, const Mesh *mesh)
   Frozen                      *turn     = &interface->turn;
   PetscReal                    where[4] = {0};
   PetscFunctionBegin;
-  PetscCall(find_largest(interface, mesh, e->turn, e->turn_node, turn, where));
+  PetscCall(slide_find(interface, mesh, e->turn, e->turn_node, turn, where));
   PetscCall(PetscSNPrintf(turn->words, sizeof(turn->words),
                           "%s has turned by %.2g radians since its weights were made, at (%g, %g, %g): %.2g %% of the %s there acts along "
                           "the surface as it is now",

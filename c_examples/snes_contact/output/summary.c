@@ -120,6 +120,9 @@ static PetscErrorCode interface_results(Output *output, Interface *interface, co
   cJSON_AddNumberToObject(json, "gap", counts[STICKSLIP_STATE_GAP]);
   cJSON_AddNumberToObject(json, "stick", counts[STICKSLIP_STATE_STICK]);
   cJSON_AddNumberToObject(json, "slip", counts[STICKSLIP_STATE_SLIP]);
+  cJSON_AddNumberToObject(json, "overlap", interface->depth);
+  cJSON_AddNumberToObject(json, "lag", interface->lag.amount);
+  cJSON_AddNumberToObject(json, "lag_force", interface->lag_force);
   if (decision_is_points(interface)) PetscCall(add_closed_area(interface, json));
   if (interface->options.weights != STICKSLIP_WEIGHTS_CURRENT) cJSON_AddNumberToObject(json, "slid", interface->slide.amount);
   if (interface->options.weights == STICKSLIP_WEIGHTS_REFERENCE) cJSON_AddNumberToObject(json, "turned", interface->turn.amount);

@@ -9,7 +9,7 @@ from ._laws import LawPoint
 from ._library import HEADER as header
 from ._library import constants, lib, text
 from .condensed import Condensed
-from .errors import Error
+from .errors import Error, StepRefused, StepWarning
 from .interface import Interface
 from .meshes import crosspoints, split_creases
 from .plan import CondensedPlan, Plan
@@ -21,5 +21,5 @@ __version__ = text(lib.stickslip_version())
 #: Version, commit, target, profile, compiler and kernels of the library.
 __build__ = text(lib.stickslip_build())
 
-__all__ = ["Condensed", "CondensedPlan", "Error", "Heat", "Interface", "LawPoint", "Plan", "RigidBody", "RigidPlan", "Surface", "constants",
-            "crosspoints", "errors", "header", "split_creases"]
+__all__ = ["Condensed", "CondensedPlan", "Error", "Heat", "Interface", "LawPoint", "Plan", "RigidBody", "RigidPlan", "StepRefused", "StepWarning",
+            "Surface", "constants", "crosspoints", "errors", "header", "split_creases"]

@@ -1,5 +1,6 @@
 """What an interface tells about itself: states, equilibrium, report, diagnosis, counters."""
 
+import warnings
 from collections.abc import Callable
 from types import SimpleNamespace
 
@@ -8,10 +9,13 @@ from numpy.typing import ArrayLike
 
 from ._arrays import pointer
 from ._library import ffi
+from .errors import StepRefused, StepWarning
 
 _TYPES = {"double": np.float64, "int32_t": np.int32, "int64_t": np.int64}
 # No sentence of the library comes near it.
 _TEXT = 1 << 16
+# Parts of their scales from which overlaps and lags are told, and from which no step counts.
+_OVERLAP, _LAG = (0.03, 0.1), (0.01, 0.1)
 
 
 def _members(name: str):
@@ -70,6 +74,32 @@ class Inspection:
         out.modulus, out.least_traction = modulus, least_traction
         self._call("equilibrium", *self._point(x1, x2, lam, sums), out)
         return SimpleNamespace(**_scalars(out, "equilibrium"))
+
+    def check_step(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, modulus: float = 0.0, least_traction: float = 0.0,
+                   tolerance: float = 1e-10, sums: ArrayLike | None = None) -> SimpleNamespace:
+        """Asks whether a step may count, before its commit: :meth:`equilibrium`, judged as docs/plug_in.md says.
+
+        Raises :class:`stickslip.StepRefused` where the contact is not in equilibrium to ``tolerance``, bodies really overlap or are apart
+        where they press, or normals of the step's start are too far off; warns with :class:`stickslip.StepWarning` of the last
+        three where they begin. With ``sums`` each process speaks of its own part.
+        """
+        e = self.equilibrium(x1, x2, lam, modulus=modulus, least_traction=least_traction, sums=sums)
+        scales = {"gap": e.gap_scale, "traction": e.traction_scale, "slip": e.slip_scale}
+        for name, scale in scales.items():
+            if not getattr(e, name) <= tolerance * scale:
+                raise StepRefused(f"the contact is not in equilibrium: a {name} of {getattr(e, name):.3g} that the law forbids, of a "
+                                  f"scale of {scale:.3g}, at node {getattr(e, name + '_node')}")
+        for amount, scale, (told, most), text in (
+            (e.penetration, e.penetration_scale, _OVERLAP, f"bodies overlap by {e.penetration:.3g} at node {e.penetration_node}"),
+            (e.apart, e.apart_scale, _OVERLAP, f"node {e.apart_node} presses although the bodies are {e.apart:.3g} apart"),
+            (e.lag, e.traction_scale, _LAG, f"surfaces have turned within the step, and pressures lag by {e.lag:.3g} at node {e.lag_node}: "
+                                            "take a smaller step, or normals of now"),
+        ):
+            if amount > most * scale:
+                raise StepRefused(text)
+            if amount > told * scale:
+                warnings.warn(text, StepWarning, stacklevel=2)
+        return e
 
     def report(self, x1: ArrayLike, x2: ArrayLike) -> SimpleNamespace:
         """Which nodes are covered, and what surfaces that do not meet look like; ``text`` says it in sentences."""

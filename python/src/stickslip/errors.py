@@ -26,6 +26,14 @@ class WrongType(Error, TypeError):
     """An argument of another type than the call needs, which the package finds before the library is asked."""
 
 
+class StepRefused(Error):
+    """A step that a host has solved and that must not count. Nothing was changed."""
+
+
+class StepWarning(UserWarning):
+    """A step that counts, and is off by more than a mesh shows."""
+
+
 # Where a class of Python says the same, the exception is one of it too.
 _ALSO = {
     "INVALID_SIZE": ValueError,
@@ -57,7 +65,8 @@ def _class(name: str, status: int) -> type[Error]:
 statuses = _statuses()
 by_status: dict[int, type[Error]] = {status: _class(name, status) for name, status in statuses.items()}
 globals().update({made.__name__: made for made in by_status.values()})
-__all__ = ["Error", "WrongType", "by_status", "exception_of", "statuses", *(made.__name__ for made in by_status.values())]
+__all__ = ["Error", "StepRefused", "StepWarning", "WrongType", "by_status", "exception_of", "statuses",
+           *(made.__name__ for made in by_status.values())]
 
 
 def exception_of(status: int) -> type[Error]:

@@ -148,6 +148,10 @@ class Interface(Heats, Inspection, Laws):
         """Accepts a converged step: it becomes t_n."""
         self._call("commit", *self._point(x1, x2, lam, sums))
 
+    def commit_check(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, sums: ArrayLike | None = None) -> None:
+        """Raises what :meth:`commit` would raise; nothing changes. For several interfaces or processes: all accept a step, or none."""
+        self._call("commit_check", *self._point(x1, x2, lam, sums))
+
     def rollback(self) -> None:
         """Undoes the last commit."""
         self._call("rollback")

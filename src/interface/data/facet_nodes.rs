@@ -16,6 +16,11 @@ impl FacetNodes {
     pub fn as_slice(&self) -> &[usize] {
         &self.nodes[..self.len]
     }
+
+    /// The node at a corner of what geometry takes it for: the quadrilateral of a line has each node twice.
+    pub fn of_corner(&self, k: usize) -> usize {
+        self.nodes[if self.len == 2 { [0, 1, 1, 0][k] } else { k }]
+    }
 }
 
 /// A facet of the host: its nodes as indices into the surface.

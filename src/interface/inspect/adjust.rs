@@ -5,8 +5,7 @@
 //! nearest. Positive: open. Nodes are looked at one by one, so that none is moved for the sake of a neighbour.
 
 use crate::error::{Error, Kind, Result};
-use crate::geometry::bilinear_map::BilinearMap;
-use crate::geometry::{AnalyticSurface, Facet, Plane, Projection, Vec3};
+use crate::geometry::{AnalyticSurface, Facet, OUTSIDE, Over, Plane, Vec3};
 use crate::interface::data::setup::Setup;
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::boxes::Aabb;
@@ -17,9 +16,6 @@ use crate::line::Measure;
 use crate::memory::{self, Store, Stored};
 use crate::normal::nodal_normal;
 use crate::shape::Shape;
-
-/// A node this far outside a facet, in its functions, still lies on it: at a border by rounding.
-const OUTSIDE: f64 = 1e-6;
 
 /// Newton's method along a normal doubles its digits in each; a normal that passes a surface by meets none.
 const ITERATIONS: usize = 50;
@@ -50,7 +46,7 @@ pub fn adjusted<const N: usize>(setup: &Setup<N>, tolerance: f64) -> Result<Vec<
     let mut sums = Vec::new();
     one.add_normals(&one.reference, &mut sums)?;
     let edges = shortest_edges(one)?;
-    let over = Over::new(two)?;
+    let over = Mortar::new(two)?;
     let mut nodes = memory::with_room(one.len())?;
     let mut found = Vec::new();
     for (a, &x) in one.reference.iter().enumerate() {
@@ -92,27 +88,27 @@ fn shortest_edges(one: &Surface) -> Result<Vec<f64>> {
 }
 
 /// What lies over the nodes.
-enum Over<'a> {
+enum Mortar<'a> {
     Facets(&'a Surface, Tree),
     Analytic(AnalyticSurface),
 }
 
-impl Over<'_> {
-    fn new(two: &Surface) -> Result<Over<'_>> {
+impl Mortar<'_> {
+    fn new(two: &Surface) -> Result<Mortar<'_>> {
         if two.analytic.is_some() {
-            return two.analytic_at(&two.reference).map(Over::Analytic);
+            return two.analytic_at(&two.reference).map(Mortar::Analytic);
         }
         let boxes = |f: usize| Aabb::around(two.facet(f, &two.reference).points().iter().copied());
-        Ok(Over::Facets(two, Tree::new((0..two.facets.len()).map(boxes).stored()?)?))
+        Ok(Mortar::Facets(two, Tree::new((0..two.facets.len()).map(boxes).stored()?)?))
     }
 
     /// The distance along nu from what looks at x; `size`: of facets there `[L]`.
     fn gap(&self, x: Vec3, nu: Vec3, size: f64, found: &mut Vec<usize>) -> Result<Option<f64>> {
         let (two, tree) = match self {
-            Over::Analytic(surface) => {
+            Mortar::Analytic(surface) => {
                 return Ok(along(surface, x - surface.origin, nu));
             }
-            Over::Facets(two, tree) => (two, tree),
+            Mortar::Facets(two, tree) => (two, tree),
         };
         let plane = Plane::of(&around(x, nu, size))?;
         tree.find(&Prism::over(&[x], &plane, OUTSIDE * size), found)?;
@@ -148,13 +144,6 @@ fn around(x: Vec3, nu: Vec3, size: f64) -> Facet {
 /// How far x lies over a facet along the plane's normal, if it lies over it and they look at each other.
 fn below(facet: &Facet, x: Vec3, plane: &Plane) -> Option<f64> {
     let out = facet.area_vector();
-    if !(out.dot(&plane.e) > LEAST_OPPOSITION * out.norm()) {
-        return None;
-    }
-    let projection = Projection::new(facet, plane);
-    let at = x - plane.reference - plane.origin;
-    let place = BilinearMap::new(&projection).inverse([plane.t1.dot(&at), plane.t2.dot(&at)]);
-    let n = projection.shape.values(place.xi, place.eta);
-    let inside = n.iter().take(projection.shape.n).all(|n| *n >= -OUTSIDE);
-    inside.then(|| plane.e.dot(&at) - n.iter().zip(&projection.d).map(|(n, d)| n * d).sum::<f64>())
+    let looks = out.dot(&plane.e) > LEAST_OPPOSITION * out.norm();
+    looks.then(|| Over::new(facet, plane).height(x, plane))?.map(|(height, _)| height)
 }

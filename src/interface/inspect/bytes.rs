@@ -72,6 +72,8 @@ pub fn of_work(work: &Work) -> usize {
 fn of_room(r: &Room) -> usize {
     let of_row = heap(&r.frames) + heap(&r.candidates) + heap(&r.found) + heap(&r.segments) + heap(&r.sheets);
     let of_nodes = heap(&r.met) + heap(&r.sums) + heap(&r.vectors);
+    let of_nodes =
+        of_nodes + heap(&r.seen.nearest) + heap(&r.seen.front) + r.seen.normals.iter().map(heap).sum::<usize>();
     of_row + of_nodes + heap(&r.dropped) + heap(&r.added) + of_active(&r.anew)
 }
 

@@ -10,17 +10,23 @@
 //! is told beside it. Where a surface has turned by theta since weights of the reference were made, a pressure p goes on acting along its
 //! first normal: p sin(theta) acts along the surface as it is now, a shear that no friction has allowed, and p (1 - cos(theta)) is missing.
 //! Both sides turning together makes no difference. Offsets of tied surfaces act along the first normals, whatever the weights.
+//!
+//! With normals of t_n a traction acts along those although the surface has turned: what the law would not allow of it if it had turned with
+//! the surface is the lag. What weighted gaps do not see of the real ones: `overlap.rs`.
 
+use super::overlap;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::interface::data::extent::Scope;
 use crate::interface::data::options::Weights;
 use crate::interface::pairing::given::Given;
+use crate::interface::pairing::nearest::look;
+use crate::interface::pairing::work::Work;
 use crate::interface::stages::carried::{carriers_sums, multiplier_share};
 use crate::interface::stages::node::{is_left_out, node};
 use crate::interface::stages::own::{At, special};
 use crate::interface::stages::sums::NodeSums;
-use crate::law::{Measure, NodeResponse, Violation};
+use crate::law::{Measure, NodeResponse, State, Violation};
 use crate::memory;
 use crate::normal;
 use nalgebra::SVector;
@@ -28,6 +34,12 @@ use nalgebra::SVector;
 /// How many roundings of the largest coordinate may meet in a gap or a slip: a difference of two sums over some nodes,
 /// each of which was rounded when it was moved.
 pub const ROUNDINGS: f64 = 8.0;
+
+/// A node presses where its traction is more than this part of the largest one.
+const PRESSES: f64 = 0.01;
+/// What a slipping node's traction is wrong by is judged beside friction where that is more than this part of the traction, else beside all
+/// of it: torques of shafts are friction's.
+const FRICTION: f64 = 0.1;
 
 /// What the host knows of its problem.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -63,11 +75,19 @@ pub struct Equilibrium {
     /// No violation: the angle by which the surface has turned where weights are of the reference, by the part that the traction there is
     /// of the largest one; over 1.
     pub turn: Largest,
+    /// Of tractions, too, by the normals of now, where those of t_n are in use [F/L^2].
+    pub lag: Largest,
+    /// The same over all nodes: sums of the traction times the area, and of what it should be compared with `[F]`.
+    pub lag_force: [f64; 2],
+    /// No violation of weighted gaps: the real overlap at a point `[L]`.
+    pub penetration: Largest,
+    /// The same: how far apart the surfaces really are where a node presses `[L]`.
+    pub apart: Largest,
 }
 
 impl Largest {
     #[inline(never)] // once, not at each of its calls
-    fn offer(&mut self, value: f64, scale: f64, node: usize) {
+    pub(super) fn offer(&mut self, value: f64, scale: f64, node: usize) {
         // value / scale > self.value / self.scale, where a scale may be zero, too
         if value * self.scale > self.value * scale || (value > 0.0 && self.node.is_none()) {
             *self = Largest { value, scale, node: Some(node) };
@@ -76,15 +96,16 @@ impl Largest {
 }
 
 /// The distance of (x, lambda) from equilibrium. Nodes without any multiplier equation, and those whose
-/// multiplier acts elsewhere, have no part in it. `turned`: room.
+/// multiplier acts elsewhere, have no part in it.
 pub fn equilibrium<const N: usize>(
     given: Given<N>,
     (x1, x2): (&[Vec3], &[Vec3]),
     lambda: &[SVector<f64, N>],
     (sums, carried, responses): (&[NodeSums], &[bool], &[NodeResponse<N>]),
     scope: Scope,
-    (scales, turned): (&Scales, &mut Vec<Vec3>),
+    (scales, work): (&Scales, &mut Work),
 ) -> Result<Equilibrium> {
+    let turned = &mut work.room.vectors;
     let areas = &given.history().areas;
     let nodes = || (0..lambda.len()).filter(|&a| given.setup.has_multiplier(a) && given.setup.nodes.acts(a));
     // A sliver's multiplier is a point load: it counts by its force.
@@ -104,7 +125,10 @@ pub fn equilibrium<const N: usize>(
     let options = &given.setup.options;
     let may_slide = options.friction.law().opens && options.weights != Weights::Current;
     let may_turn = given.setup.acts_along_first_normals();
-    if may_turn {
+    // Of normals that the host gives it knows more.
+    let may_lag =
+        options.friction.law().opens && !may_turn && given.step.now.is_none() && given.setup.nodes.normals.is_none();
+    if may_turn || may_lag {
         given.setup.nonmortar.add_normals(x1, turned)?;
     }
     let mut all = Equilibrium {
@@ -113,6 +137,8 @@ pub fn equilibrium<const N: usize>(
         slip: none,
         slide: Largest { scale: if may_slide { least(&|a| given.facet_size(a)) } else { 0.0 }, ..none },
         turn: Largest { scale: 1.0, ..none },
+        lag: Largest { scale: traction, ..none },
+        ..Equilibrium::default()
     };
 
     let shared =
@@ -124,6 +150,7 @@ pub fn equilibrium<const N: usize>(
         let stiffness = if scales.modulus > 0.0 { scales.modulus } else { traction } / h;
         let share = (sum.coverage / areas[a]).min(1.0);
         let elastic = scales.modulus / h * rounding;
+        let mut lag = 0.0;
         let measure = Measure {
             coverage: sum.coverage,
             coverage_previous: sum.coverage_previous,
@@ -145,8 +172,34 @@ pub fn equilibrium<const N: usize>(
             if let Some(own) = &given.setup.own {
                 node.special = special((own, given), a, (&node, sum), At::Multiplier, &mut states)?;
             }
-            (given.setup.effects.law.violation)(&node, &measure)
+            let violation = given.setup.effects.law.violation;
+            let found = violation(&node, &measure);
+            if N == 3
+                && may_lag
+                && let Some(now) = normal_of(turned, a)?
+            {
+                node.lambda = turned_back(&lambda[a], given.free_normal(a, now)?, node.normal);
+                let v = violation(&node, &measure);
+                lag = v.traction + stiffness * v.slip;
+            }
+            found
         };
+        if may_lag {
+            let nu = given.normal(a)?;
+            // Without a law that knows directions all of the turn counts.
+            if (N == 1 || given.setup.decides_at_points())
+                && responses[a].state != State::Stick
+                && let Some(now) = normal_of(turned, a)?
+            {
+                let turn = (given.free_normal(a, now)? - nu).norm();
+                lag = (lambda[a].norm() * turn - measure.traction_rounding).max(0.0);
+            }
+            all.lag.offer(lag * share, traction, a);
+            let (size, force) = (lambda[a].norm(), areas[a] * share);
+            let friction = if N == 3 && responses[a].state == State::Slip { tangential(&lambda[a], &nu) } else { 0.0 };
+            let counts = if friction > FRICTION * size { friction } else { size };
+            (all.lag_force[0], all.lag_force[1]) = (all.lag_force[0] + force * lag, all.lag_force[1] + force * counts);
+        }
         if ![v.gap, v.traction, v.slip].iter().all(|v| v.is_finite()) {
             let text = text!("the violation at non-mortar node {a} overflows: the inputs are out of range");
             return Err(Error::new(Kind::NotFinite, text));
@@ -159,12 +212,38 @@ pub fn equilibrium<const N: usize>(
             if may_slide {
                 all.slide.offer(slid(&given.normal(a)?, sum) * part, given.facet_size(a), a);
             }
-            if may_turn && let Some(now) = memory::if_accepted(normal::nodal_normal(turned[a], a))? {
+            if may_turn && let Some(now) = normal_of(turned, a)? {
                 all.turn.offer(normal::angle(&given.history().normals[a], &now) * part, 1.0, a);
             }
         }
     }
+    if options.friction.law().opens {
+        look(given.setup.surfaces(), (x1, x2), work)?;
+        let presses = |a: usize| {
+            let acts = given.setup.has_multiplier(a) && given.setup.nodes.acts(a);
+            acts && lambda[a].norm() * (sums[a].coverage / areas[a]).min(1.0) > PRESSES * traction
+        };
+        let scales = Scales { traction, ..*scales };
+        [all.penetration, all.apart] = overlap::largest(&work.room.seen, &presses, &scales, rounding);
+    }
     Ok(all)
+}
+
+/// nu of now, where the normals around the node have a mean.
+fn normal_of(sums: &[Vec3], a: usize) -> Result<Option<Vec3>> {
+    memory::if_accepted(normal::nodal_normal(sums[a], a))
+}
+
+/// What of a traction lies along the surface.
+fn tangential<const N: usize>(lambda: &SVector<f64, N>, nu: &Vec3) -> f64 {
+    let lambda = Vec3::from_fn(|k, _| lambda[k]);
+    (lambda - nu * nu.dot(&lambda)).norm()
+}
+
+/// A traction as it is seen along `nu` where it acts at a node whose normal is `now`.
+fn turned_back<const N: usize>(lambda: &SVector<f64, N>, now: Vec3, nu: Vec3) -> SVector<f64, N> {
+    let back = normal::turned(Vec3::from_fn(|k, _| lambda[k]), now, nu);
+    SVector::from_fn(|k, _| back[k])
 }
 
 /// How far apart along the surface a node's traction acts on the two sides `[L]`. Weights of now keep both forces on one line;

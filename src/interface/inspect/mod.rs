@@ -7,4 +7,5 @@ pub mod describe;
 pub mod diagnosis;
 pub mod equilibrium;
 pub mod mistakes;
+pub mod overlap;
 pub mod report;

@@ -18,7 +18,7 @@ use crate::memory::{self, Stored};
 pub const LEAST_OPPOSITION: f64 = 0.17;
 /// Neighbouring facets whose normals have a scalar product above this (45 degrees) approximate one smooth surface;
 /// below it there is an edge, which says nothing about a bulge.
-const SMOOTH: f64 = 0.7;
+pub const SMOOTH: f64 = 0.7;
 /// A circle lies off its chord of length h by h phi / 4 at most, phi the angle to the next, much shorter chord (phi / 8
 /// where that is as long); this times h phi leaves a factor of 2.
 const BULGE: f64 = 0.5;

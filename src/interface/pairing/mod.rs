@@ -8,6 +8,7 @@ pub mod ends;
 pub mod filter;
 pub mod given;
 pub mod hybrid;
+pub mod nearest;
 pub mod orientation;
 pub mod overlaps;
 pub mod prism;

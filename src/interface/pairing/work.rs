@@ -1,6 +1,7 @@
 //! What searches and integrations work with, in memory that is kept from one to the next.
 
 use super::candidates::KeptTree;
+use super::nearest::Seen;
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
 use crate::interface::data::counters::Counters;
@@ -63,4 +64,6 @@ pub struct Room {
     pub anew: Active,
     /// Pairs that a commit adds, with the area of their overlap.
     pub added: Vec<(PairRecord, f64)>,
+    /// Which facets lie nearest to each node.
+    pub seen: Seen,
 }

@@ -1,0 +1,111 @@
+/* What a converged step may be wrong by although its forces balance and its contact is in equilibrium: bodies that really overlap, or
+ * are apart where they press, which the means of gaps over facets do not see, and with normals of t_n a pressure that lags behind the
+ * surface. The library measures it (stickslip_equilibrium); what is done about it is said here. A step that is too far off
+ * does not count: it is cut back, for shorter ones turn less and end before the bodies are deep in each other. */
+#include "contact/contact.h"
+
+/* An overlap, over the library's scale, that is told, and one with which no step counts: a hundredth and a tenth of a facet where the
+ * pressure is large; where nothing presses, less. */
+static const PetscReal OVERLAP_TOLD = 0.03, OVERLAP_MOST = 0.1;
+/* The same of the lag of a node over the largest traction; and of that of all nodes over their force, with which no step counts. */
+static const PetscReal LAG_TOLD = 0.01, LAG_MOST = 0.1, LAG_FORCE_MOST = 0.02;
+
+static const char *remedy(const Interface *interface)
+{
+  if (interface->options.weights == STICKSLIP_WEIGHTS_PERSISTENT)
+    return "With `weights: persistent` what overlaps at the start of a step counts as closed: take `weights: current`";
+  if (interface->options.weights != STICKSLIP_WEIGHTS_CURRENT)
+    return "Frozen weights do not know where the surfaces are: take `weights: current`, or shorter steps";
+  return decision_is_points(interface) ? "Take finer facets" :
+                                         "Facets that are coarser than the contact do not feel it: make the side with the finer facets "
+                                         "`nonmortar`, mesh both finer, or take `decision: points`";
+}
+
+static PetscErrorCode measure(Interface *interface, const Mesh *mesh)
+{
+  const stickslip_equilibrium *e         = &interface->equilibrium;
+  Frozen                      *overlap   = &interface->overlap, *apart = &interface->apart, *lag = &interface->lag;
+  PetscReal                    where[4]  = {0, 0, 0, e->penetration}, there[4] = {0, 0, 0, e->apart}, at[4] = {0};
+  const PetscReal              traction  = e->traction_scale;
+  PetscReal                    force[2];
+  PetscFunctionBegin;
+  PetscCall(slide_find(interface, mesh, e->penetration > 0 ? e->penetration / e->penetration_scale : 0, e->penetration_node, overlap, where));
+  PetscCall(slide_find(interface, mesh, e->apart > 0 ? e->apart / e->apart_scale : 0, e->apart_node, apart, there));
+  PetscCall(slide_find(interface, mesh, e->lag > 0 ? e->lag / traction : 0, e->lag_node, lag, at));
+  interface->depth = where[3];
+  force[0]         = interface->part.handle ? e->lag_force : 0;
+  force[1]         = interface->part.handle ? e->lag_force_scale : 0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, force, 2, MPIU_REAL, MPI_SUM, PETSC_COMM_WORLD));
+  interface->lag_force = force[1] > 0 ? force[0] / force[1] : 0;
+  PetscCall(PetscSNPrintf(overlap->words, sizeof(overlap->words), "the bodies of %s overlap by %.2g at (%g, %g, %g)", interface->name,
+                          (double)where[3], (double)where[0], (double)where[1], (double)where[2]));
+  PetscCall(PetscSNPrintf(apart->words, sizeof(apart->words), "the bodies of %s press each other at (%g, %g, %g) although they are %.2g apart",
+                          interface->name, (double)there[0], (double)there[1], (double)there[2], (double)there[3]));
+  PetscCall(PetscSNPrintf(lag->words, sizeof(lag->words),
+                          "%s has turned within the step so far that %.2g %% of its largest pressure acts along the surface, or off the cone "
+                          "of friction, at (%g, %g, %g)",
+                          interface->name, (double)(100 * lag->amount), (double)at[0], (double)at[1], (double)at[2]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* At a converged state that the interfaces have been judged at. `why`, where it does not count; `ratio`: at least how many times too
+ * long the step was. */
+PetscErrorCode unseen_check(Contact *contact, PetscReal *ratio, char why[], size_t length)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    Interface    *interface = &contact->interfaces[i];
+    PetscReal     lags;
+    const Frozen *wrong[]   = {&interface->overlap, &interface->apart};
+    PetscCall(measure(interface, contact->mesh));
+    for (int k = 0; k < 2; k++) {
+      if (wrong[k]->amount > OVERLAP_MOST)
+        PetscCall(PetscSNPrintf(why, length, "converged, but %s. %s", wrong[k]->words, remedy(interface)));
+    }
+    lags   = PetscMax(interface->lag.amount / LAG_MOST, interface->lag_force / LAG_FORCE_MOST);
+    *ratio = PetscMax(*ratio, lags);
+    if (lags > 1)
+      PetscCall(PetscSNPrintf(why, length,
+                              "converged, but %s: with normals of the step's start. Take shorter steps, or `normals: current`, "
+                              "which turn with it",
+                              interface->lag.words));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode tell(PetscReal t, Frozen *found, PetscReal most, const char *means)
+{
+  PetscFunctionBegin;
+  if (found->told || !(found->amount > most)) PetscFunctionReturn(PETSC_SUCCESS);
+  found->told = PETSC_TRUE;
+  PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR, "snes_contact: warning: at t = %.6g %s. %s.\n", (double)t, found->words, means));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The step counts. */
+PetscErrorCode unseen_accept(Contact *contact)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    Interface *interface = &contact->interfaces[i];
+    PetscCall(tell(contact->physics->t, &interface->overlap, OVERLAP_TOLD, remedy(interface)));
+    PetscCall(tell(contact->physics->t, &interface->apart, OVERLAP_TOLD, remedy(interface)));
+    PetscCall(tell(contact->physics->t, &interface->lag, LAG_TOLD,
+                   "Normals are those of the step's start: shorter steps, or `normals: current`, make it less"));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The run has come to its end. */
+PetscErrorCode unseen_end(const Contact *contact)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    const Interface *interface = &contact->interfaces[i];
+    if (interface->options.friction == STICKSLIP_FRICTION_TIED || interface->largest_traction > 0) continue;
+    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
+                           "snes_contact: warning: %s never closed: nothing pressed in any step%s.\n", interface->name,
+                           interface->overlap.amount > 0 ? ", although its bodies overlap" : ""));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
