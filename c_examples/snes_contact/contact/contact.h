@@ -159,6 +159,7 @@ typedef struct {
   char           modulus_from[64];        /* with decisions at points: what the modulus of both bodies is made of */
   stickslip_equilibrium equilibrium;      /* of this part, as last judged (equilibrium.c) */
   Frozen                slide, turn;
+  PetscReal             tied_gap; /* of tied surfaces that are farther apart at the start than is told (kept.c); 0: none are */
 } Interface;
 
 /* How the search for equilibrium goes (equilibrium.c) */
@@ -431,8 +432,8 @@ void           equilibrium_accept(Contact *contact);
 /* slide.c */
 PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t length);
 PetscErrorCode slide_accept(Contact *contact);
-/* kept.c: what persistent weights leave of an overlap at the start; after contact_gather() */
-PetscErrorCode kept_tell(const Contact *contact, const Interface *interface);
+/* kept.c: what persistent weights leave of an overlap at the start, and across what gap surfaces are tied; after contact_gather() */
+PetscErrorCode kept_tell(const Contact *contact, Interface *interface);
 
 /* The library's status as a PETSc error, where a refusal is not something to recover from. */
 #define PetscCallStickslip(...)                                                                                        \

@@ -8,3 +8,4 @@ pub mod diagnosis;
 pub mod equilibrium;
 pub mod mistakes;
 pub mod report;
+pub mod why;
