@@ -434,6 +434,8 @@ PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t
 PetscErrorCode slide_accept(Contact *contact);
 /* kept.c: what persistent weights leave of an overlap at the start, and across what gap surfaces are tied; after contact_gather() */
 PetscErrorCode kept_tell(const Contact *contact, Interface *interface);
+/* chords.c: facets that do not touch though the curved surfaces may; there, too */
+PetscErrorCode chords_tell(const Interface *interface);
 
 /* The library's status as a PETSc error, where a refusal is not something to recover from. */
 #define PetscCallStickslip(...)                                                                                        \

@@ -65,7 +65,7 @@ pub fn shape_offsets(surface: &Surface, shape: &AnalyticSurface) -> Result<Vec<f
             let Some(closest) = shape.closest(x - shape.origin) else { continue };
             if closest.normal.dot(&e) < -LEAST_COSINE {
                 let text = text!(
-                    "{side} facet {} looks into the body of the shape: the radius is above 0 of a ball or a bar, whose body is inside, and below 0 of a cavity or a bore; is its sign that of the other side?",
+                    "{side} facet {} looks into the body of the shape: the radius is above 0 of a ball or a bar, whose body is inside, and below 0 of a cavity or a bore; turn its sign round",
                     surface.host_facet(f)
                 );
                 return Err(Error::new(Kind::InvalidValue, text));

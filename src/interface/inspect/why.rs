@@ -65,7 +65,7 @@ fn worse(finding: Finding, opposition: f64) -> Finding {
 }
 
 /// The same of an analytic side: a facet that looks at it is deeper in it than a pair can be; one that looks the same way is in
-/// its body, or no farther from a flat surface than it is long. One that is farther outside may turn.
+/// its body, or no farther from a surface that lies over it than it is long. One that is farther outside may turn.
 fn why_none_faces(one: &Surface, surface: &AnalyticSurface, options: &Options, x1: &[Vec3]) -> Result<Finding> {
     let mut finding = Finding::NoOverlap;
     for f in 0..one.facets.len() {
@@ -73,9 +73,11 @@ fn why_none_faces(one: &Surface, surface: &AnalyticSurface, options: &Options, x
         let plane = Plane::of(&facet).map_err(one.at(f))?;
         let distances = facet.points().iter().map(|x| surface.distance(x - surface.origin));
         let highest = distances.fold(f64::NEG_INFINITY, f64::max);
-        let Some(closest) = surface.closest(plane.reference - surface.origin + plane.origin) else { continue };
+        let centre = plane.reference - surface.origin + plane.origin;
+        let Some(closest) = surface.closest(centre) else { continue };
         let opposition = -plane.e.dot(&closest.normal);
-        let farthest = if opposition < 0.0 && surface.is_flat() { facet.longest_edge() } else { 0.0 };
+        let is_near = opposition < 0.0 && surface.lies_over(centre, plane.e);
+        let farthest = if is_near { facet.longest_edge() } else { 0.0 };
         if opposition > LEAST_OPPOSITION && highest >= 0.0 || analytic::faces_at(one, surface, options, x1, (f, 0.0))? {
             return Ok(Finding::NoOverlap);
         }
