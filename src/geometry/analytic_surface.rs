@@ -203,6 +203,19 @@ impl AnalyticSurface {
         })
     }
 
+    /// Whether the line through the point x, given as x - P0, along `e` meets the body of a ball, a bar or a disc that is
+    /// thinner by `margin`. All others have no far side.
+    pub fn is_met_along(&self, x: Vec3, e: Vec3, margin: f64) -> bool {
+        let (r, x, e) = (self.shape.radius() - margin, self.round * x, self.round * e);
+        r > 0.0 && x.cross(&e).norm_squared() < r * r * e.norm_squared()
+    }
+
+    /// Whether the surface lies over a facet about the point x, given as x - P0, with this normal: a convex one only where it
+    /// is met along the normal.
+    pub fn lies_over(&self, x: Vec3, e: Vec3) -> bool {
+        !(self.shape.radius() > 0.0) || self.is_met_along(x, e, 0.0)
+    }
+
     /// D(x - y)/Dx = n n^T + s Dn/Dx, symmetric.
     #[inline]
     pub fn gradient(&self, y: &Closest) -> Mat3 {

@@ -17,8 +17,9 @@ use super::inspect::describe;
 use super::linear::Linear;
 use super::pairing::given::{Given, NormalsAt, Step, check_finite};
 use super::pairing::settle::Pairing;
+use super::pairing::walls::backs;
 use super::stages::commit::{self, Known, Settled};
-use super::stages::lost::refuse_lost_contact;
+use super::stages::lost::{refuse_lost_contact, refuse_passed};
 use super::stages::residual::Residual;
 use super::stages::spin::refuse_spin;
 use super::stages::sums::NodeSums;
@@ -114,7 +115,9 @@ fn unslipped<const N: usize>(setup: &Setup<N>, step: &mut Step) -> Result<Points
 
 /// Data, and what a host sets.
 impl<const N: usize> Contact<N> {
-    fn build(setup: Setup<N>) -> Result<Contact<N>> {
+    fn build(mut setup: Setup<N>) -> Result<Contact<N>> {
+        setup.nonmortar.backs = backs(&setup.nonmortar)?;
+        setup.mortar.backs = backs(&setup.mortar)?;
         let mut cache = Cache::default();
         let at = (&setup.nonmortar.reference[..], &setup.mortar.reference[..]);
         let (_, active, work, _) = cache.leave();
@@ -399,6 +402,7 @@ impl<const N: usize> Contact<N> {
         refuse_turn(given, (x1, x2), shared, &mut self.cache.work.room.vectors)?;
         let answers = self.cache.answers();
         refuse_spin(given, x1, (&answers.sums, &answers.responses.nodes))?;
+        refuse_passed(&self.setup, self.step.pairing.filter.as_ref(), (x1, x2))?;
         let (surfaces, options, history) = (self.setup.surfaces(), &self.setup.options, &self.step.history);
         let moved = self.spare.take().unwrap_or_else(History::empty);
         let (is_known, active, work, answers) = self.cache.leave();

@@ -64,6 +64,7 @@ PetscErrorCode contact_start(Contact *contact, Vec x, PetscInt *status)
       refused = stickslip_interface_initial_multipliers(part->handle, MULTIPLIERS_OF(part, part->gathered));
     PetscCall(contact_agree(contact, interface, refused, status));
     if (!*status) PetscCall(kept_tell(contact, interface));
+    if (!*status) PetscCall(chords_tell(interface));
     PetscCall(parts_share(part, part->components, MULTIPLIERS_OF(part, part->gathered)));
     if (!*status) PetscCall(contact_scatter(part, part->gathered, physics->u_local, MPI_REPLACE));
   }

@@ -167,6 +167,7 @@ typedef struct {
   Frozen                overlap, apart, lag; /* over the library's scales, see unseen.c */
   PetscReal             lag_force;           /* of all nodes, over what they press with */
   PetscReal             depth;               /* how far the bodies overlap there */
+  PetscReal             tied_gap; /* of tied surfaces that are farther apart at the start than is told (kept.c); 0: none are */
 } Interface;
 
 /* How the search for equilibrium goes (equilibrium.c) */
@@ -448,11 +449,13 @@ PetscErrorCode slide_find(const Interface *interface, const Mesh *mesh, double f
 PetscErrorCode unseen_check(Contact *contact, PetscReal *ratio, char why[], size_t length);
 PetscErrorCode unseen_accept(Contact *contact);
 PetscErrorCode unseen_end(const Contact *contact);
-/* kept.c: what persistent weights leave of overlaps: of that at the start, after contact_gather(); by how much they have grown since, at a
- * converged state: why the step does not count; and told, where it does */
+/* kept.c: what persistent weights leave of overlaps: of that at the start, and across what gap surfaces are tied, after contact_gather(); by how
+ * much overlaps have grown since, at a converged state: why the step does not count; and told, where it does */
 PetscErrorCode kept_tell(const Contact *contact, Interface *interface);
 PetscErrorCode kept_check(Contact *contact, char why[], size_t length);
 PetscErrorCode kept_accept(Contact *contact);
+/* chords.c: facets that do not touch though the curved surfaces may; there, too */
+PetscErrorCode chords_tell(const Interface *interface);
 
 /* The library's status as a PETSc error, where a refusal is not something to recover from. */
 #define PetscCallStickslip(...)                                                                                        \

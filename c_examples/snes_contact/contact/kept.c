@@ -1,13 +1,17 @@
-/* With `weights: persistent` what overlaps at the start of a step counts as closed (docs/formulation.md 4.9), and what the surfaces overlap
- * by at t = 0 as well: it presses nothing, and stays. An overlap of the mesh is a fit, or a mistake, so that it is told by its node and its size.
- * A step leaves overlaps of the second order behind. Where surfaces slide on, they add up, one way: a body sinks, however short the steps.
- * That is told, too, and stops the run where it is much. */
+/* What the surfaces keep of where they are at the start, and may not be meant; it is told by its node and its size.
+ *
+ * With `weights: persistent` what overlaps at the start of a step counts as closed (docs/formulation.md 4.9), and what the surfaces overlap
+ * by at t = 0 as well: it presses nothing, and stays. An overlap of the mesh is a fit, or a mistake. A step leaves overlaps of the second
+ * order behind. Where surfaces slide on, they add up, one way: a body sinks, however short the steps. That is told, too, and stops the run
+ * where it is much. Tied surfaces keep the gap between them, however wide: what is tied across it moves as one, as if a rigid body filled it. */
 #include "contact/contact.h"
 
 /* What is told, over the longest edge around the node: coordinates of single precision are off by as much on a mesh of a hundred facets. */
 static const PetscReal KEPT_TOLD = 1e-5;
 /* By how much overlaps may have grown since the start, over the longest edge, before that is told; and before no step counts. */
 static const PetscReal SUNK_TOLD = 0.01, SUNK_MOST = 0.1;
+/* The gap of tied surfaces that is told, over the same: chords of circles in eight pieces that do not match are as far apart. */
+static const PetscReal TIED_TOLD = 0.1;
 
 /* Of the non-mortar facets of the part around each of its nodes. */
 static void longest_edges(const ContactPart *part, PetscReal longest[])
@@ -27,17 +31,25 @@ static void longest_edges(const ContactPart *part, PetscReal longest[])
   }
 }
 
-/* The deepest overlap of an interface: over the edges there, and itself; at which node, which is here in the undeformed body */
+/* The deepest overlap of an interface, or the widest gap either way: over the edges there, and itself; at which node, which is here in the
+ * undeformed body */
 typedef struct {
   PetscReal part, depth, X[3];
   PetscInt  vertex;
 } Overlap;
 
-/* At the place of the last evaluation, or commit. On every rank. */
-static PetscErrorCode measure(const Mesh *mesh, const ContactPart *part, Overlap *overlap)
+/* What is tied keeps its gaps with any weights, overlaps and others. */
+static PetscBool is_tied(const Interface *interface)
 {
-  double    *results;
-  PetscReal *edges, most = 0;
+  return (PetscBool)(interface->options.friction == STICKSLIP_FRICTION_TIED);
+}
+
+/* At the place of the last evaluation, or commit. On every rank. */
+static PetscErrorCode measure(const Mesh *mesh, const Interface *interface, Overlap *overlap)
+{
+  const ContactPart *part = &interface->part;
+  double            *results;
+  PetscReal         *edges, most = 0;
   PetscFunctionBegin;
   *overlap = (Overlap){0};
   PetscCall(PetscMalloc1(N_RESULTS * part->n1, &results));
@@ -46,7 +58,8 @@ static PetscErrorCode measure(const Mesh *mesh, const ContactPart *part, Overlap
   longest_edges(part, edges);
   for (PetscInt a = 0; a < part->n1 && part->handle; a++) {
     const double   *result = results + N_RESULTS * a;
-    const PetscReal depth  = result[RESULT_COVERAGE] > 0 ? -result[RESULT_GAP] / result[RESULT_COVERAGE] : 0;
+    const PetscReal mean   = result[RESULT_COVERAGE] > 0 ? -result[RESULT_GAP] / result[RESULT_COVERAGE] : 0;
+    const PetscReal depth  = is_tied(interface) ? PetscAbsReal(mean) : mean;
     if (part->owned[a] != STICKSLIP_NODE_OWN || depth <= most * edges[a]) continue;
     most     = depth / edges[a];
     *overlap = (Overlap){.part = most, .depth = depth, .vertex = part->vertices[a]};
@@ -58,18 +71,35 @@ static PetscErrorCode measure(const Mesh *mesh, const ContactPart *part, Overlap
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What is tied keeps its gaps with any weights. */
+/* Offsets are meant, and pull at what is tied. */
+static PetscErrorCode tied_tell(const Contact *contact, Interface *interface)
+{
+  Overlap gap;
+  PetscFunctionBegin;
+  if (interface->offsets.any) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(measure(contact->mesh, interface, &gap));
+  if (gap.part <= TIED_TOLD) PetscFunctionReturn(PETSC_SUCCESS);
+  interface->tied_gap = gap.depth;
+  PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
+                         "snes_contact: warning: the surfaces of %s are tied although they are %.3g apart at node %d at (%g, %g, %g), %.2g of the longest "
+                         "edge there: they move together as if a rigid body were between them. If they are to touch, correct the meshes, or close gaps "
+                         "of the meshes by `adjust`; if only a part of them is to be tied, name a surface that is that part.\n",
+                         interface->name, (double)gap.depth, (int)gap.vertex, (double)gap.X[0], (double)gap.X[1], (double)gap.X[2], (double)gap.part));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscBool keeps(const Interface *interface)
 {
-  return (PetscBool)(interface->options.weights == STICKSLIP_WEIGHTS_PERSISTENT && interface->options.friction != STICKSLIP_FRICTION_TIED);
+  return (PetscBool)(interface->options.weights == STICKSLIP_WEIGHTS_PERSISTENT && !is_tied(interface));
 }
 
 PetscErrorCode kept_tell(const Contact *contact, Interface *interface)
 {
   Overlap overlap;
   PetscFunctionBegin;
+  if (is_tied(interface)) PetscCall(tied_tell(contact, interface));
   if (!keeps(interface)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(measure(contact->mesh, &interface->part, &overlap));
+  PetscCall(measure(contact->mesh, interface, &overlap));
   interface->kept = overlap.part;
   if (overlap.part <= KEPT_TOLD) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
@@ -89,7 +119,7 @@ PetscErrorCode kept_check(Contact *contact, char why[], size_t length)
     Frozen    *sunk      = &interface->sunk;
     Overlap    overlap;
     if (!keeps(interface)) continue;
-    PetscCall(measure(contact->mesh, &interface->part, &overlap));
+    PetscCall(measure(contact->mesh, interface, &overlap));
     sunk->amount = overlap.part - interface->kept;
     if (sunk->amount <= SUNK_TOLD) continue;
     PetscCall(PetscSNPrintf(sunk->words, sizeof(sunk->words),

@@ -126,6 +126,7 @@ static PetscErrorCode interface_results(Output *output, Interface *interface, co
   if (decision_is_points(interface)) PetscCall(add_closed_area(interface, json));
   if (interface->options.weights != STICKSLIP_WEIGHTS_CURRENT) cJSON_AddNumberToObject(json, "slid", interface->slide.amount);
   if (interface->options.weights == STICKSLIP_WEIGHTS_REFERENCE) cJSON_AddNumberToObject(json, "turned", interface->turn.amount);
+  if (interface->tied_gap > 0) cJSON_AddNumberToObject(json, "tied_gap", interface->tied_gap);
   if (write) PetscCall(csv_write(output, interface, states, temperatures, step));
   snprintf(progress, length, "  %s %d gap %d stick %d slip", interface->name, (int)counts[STICKSLIP_STATE_GAP],
            (int)counts[STICKSLIP_STATE_STICK], (int)counts[STICKSLIP_STATE_SLIP]);
@@ -266,6 +267,7 @@ PetscErrorCode summary_settle_step(Output *output, Summary *summary, PetscBool a
   PetscCall(held_settle(output->solve, accepted));
   if (accepted) PetscCall(energy_settle(output));
   if (accepted) PetscCall(range_check(output->physics, summary->state));
+  if (accepted) PetscCall(loads_check_turn(output->physics, summary->state));
   PetscCall(VecDestroy(&summary->state));
   if (accepted) PetscFunctionReturn(PETSC_SUCCESS);
   cJSON_DeleteItemFromArray(summary->steps, cJSON_GetArraySize(summary->steps) - 1);
@@ -332,6 +334,7 @@ PetscErrorCode summary_write(Output *output, Summary **summary, Vec last, PetscI
   if (solve->n_raised) cJSON_AddNumberToObject((*summary)->root, "mumps_workspace", solve->room); /* per cent, after it asked */
   PetscCall(range_report(output->physics, (*summary)->root));
   energy_summary(output, (*summary)->root);
+  loads_report_turn(output->physics, (*summary)->root);
   PetscCall(summary_counters(output, (*summary)->root));
   PetscCall(summary_holdings(output, (*summary)->root));
   if (message[0])

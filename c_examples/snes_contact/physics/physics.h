@@ -40,6 +40,7 @@ typedef struct {
   char            name[NAME_LENGTH];
   PetscReal       traction[3], pressure;
   PetscBool       follows; /* the pressure acts on the surface as it is now */
+  PetscReal       turned;  /* by how much a surface under a pressure that does not follow it has turned (loads_turned.c) [rad] */
   Acceleration    acceleration;
   PetscReal       force[3], moment[3], point[3]; /* at the reference points of rigid bodies; at a point, spread over the surfaces; on a node */
   PetscBool       remote, given_point; /* spread over the surfaces; from `point`, not from their middle */
@@ -325,6 +326,9 @@ void           parts_refer(Physics *physics);
 Judgement      parts_judge(const Physics *physics, PetscReal rtol, PetscReal atol, PetscBool flies);
 PetscErrorCode parts_hidden_words(const Physics *physics, PetscInt part, char why[], size_t length);
 PetscErrorCode parts_resultants(Physics *physics, char why[], size_t length); /* of each part as a whole; empty: they balance */
+/* loads_turned.c: pressures that do not follow surfaces that turn */
+PetscErrorCode loads_check_turn(Physics *physics, Vec u_local);
+void           loads_report_turn(const Physics *physics, struct cJSON *root);
 
 /* range.c: do bodies with the linear material stay where it is right? */
 PetscErrorCode range_check(Physics *physics, Vec u_local);

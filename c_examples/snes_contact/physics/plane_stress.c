@@ -13,6 +13,7 @@ PetscBool plane_stress_stretch(const Material *material, PetscReal H[9])
 {
   PetscReal P[9], V[9], A[81], p, dp;
   H[8] = 0;
+  if (material->young == 0) return PETSC_TRUE; /* the frame of an analytic body, which has no stiffness */
   if (material->law->finite && !(volume_ratio_minus_one(H) > -1)) return PETSC_FALSE;
   for (int k = 0; k < MOST_ITERATIONS; k++) {
     PetscReal change;
@@ -30,6 +31,7 @@ PetscBool plane_stress_stretch(const Material *material, PetscReal H[9])
 void plane_stress_condense(PetscReal A[81])
 {
   PetscReal row[9], column[9];
+  if (A[80] == 0) return; /* no stiffness at all */
   for (int k = 0; k < 9; k++) {
     row[k]    = A[72 + k] / A[80];
     column[k] = A[9 * k + 8];

@@ -14,14 +14,15 @@ use crate::quadrature::cell::{line_of, square_point, triangle_point};
 const POINTS: usize = 5;
 /// A node farther from the shape than this, over the longest edge of the surface, is not on it.
 const FARTHEST: f64 = 1.0;
-/// A facet that is steeper to the shape is none of its chords; 60 degrees.
+/// A facet that is steeper to the shape is none of its chords; 60 degrees. One that looks the other way by more is on the wrong
+/// side of it.
 const LEAST_COSINE: f64 = 0.5;
 
 /// Of each node of a surface in its first configuration `[L]`.
 ///
 /// # Errors
 /// [`Kind::Unsupported`] of facets with mid nodes, which follow a shape by themselves, and of an analytic surface;
-/// [`Kind::InvalidValue`] where a node is farther from the shape than the longest facet is long.
+/// [`Kind::InvalidValue`] where a node is farther from the shape than the longest facet is long, or a facet looks into its body.
 pub fn shape_offsets(surface: &Surface, shape: &AnalyticSurface) -> Result<Vec<f64>> {
     let side = surface.side;
     let unsupported = |text| Err(Error::new(Kind::Unsupported, text));
@@ -62,6 +63,13 @@ pub fn shape_offsets(surface: &Surface, shape: &AnalyticSurface) -> Result<Vec<f
                 x.z = 0.0;
             }
             let Some(closest) = shape.closest(x - shape.origin) else { continue };
+            if closest.normal.dot(&e) < -LEAST_COSINE {
+                let text = text!(
+                    "{side} facet {} looks into the body of the shape: the radius is above 0 of a ball or a bar, whose body is inside, and below 0 of a cavity or a bore; turn its sign round",
+                    surface.host_facet(f)
+                );
+                return Err(Error::new(Kind::InvalidValue, text));
+            }
             let distance = closest.distance / closest.normal.dot(&e).abs().max(LEAST_COSINE);
             for (k, value) in values.iter().enumerate().take(facet.shape.n) {
                 // The quadrilateral of a line has each of its nodes twice: a, b, b, a.

@@ -47,6 +47,8 @@ pub struct Surface {
     pub idle: Vec<bool>,
     /// Per node by how much it is offset, see `offsets.rs` `[L]`; empty: no node is.
     pub offsets: Vec<f64>,
+    /// Per facet the one on the other side of its body, or `NO_FACET`, see `pairing/walls.rs`; empty: no facet has one.
+    pub backs: Vec<u32>,
     /// The shape of an analytic surface, whose one facet are the four points of its frame; `None`: real facets.
     pub analytic: Option<AnalyticShape>,
 }
@@ -171,6 +173,7 @@ impl Surface {
             parents,
             idle: Vec::new(),
             offsets: Vec::new(),
+            backs: Vec::new(),
             analytic: None,
         };
         surface.check_lines(&surface.reference)?;
@@ -222,6 +225,7 @@ impl Surface {
             parents: None,
             idle: Vec::new(),
             offsets: Vec::new(),
+            backs: Vec::new(),
             analytic: Some(shape),
         };
         if let Err(e) = surface.analytic_at(&surface.reference) {

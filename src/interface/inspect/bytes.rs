@@ -27,6 +27,7 @@ fn of_surface(s: &Surface) -> usize {
         + heap(&s.neighbours)
         + heap(&s.idle)
         + heap(&s.offsets)
+        + heap(&s.backs)
         + s.parents.as_ref().map_or(0, Parents::bytes)
 }
 
@@ -46,7 +47,7 @@ pub fn of_history(h: &History) -> usize {
 fn of_filter(filter: &Filter) -> usize {
     match filter {
         Filter::Facets(f) => {
-            f.sides.iter().map(|s| heap(&s.facets) + heap(&s.edges) + heap(&s.bulges)).sum::<usize>()
+            f.sides.iter().map(|s| heap(&s.facets) + heap(&s.edges) + heap(&s.bulges) + heap(&s.walls)).sum::<usize>()
                 + heap(&f.depths)
                 + heap(&f.reached)
                 + heap(&f.by_overlaps)

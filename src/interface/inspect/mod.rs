@@ -9,3 +9,4 @@ pub mod equilibrium;
 pub mod mistakes;
 pub mod overlap;
 pub mod report;
+pub mod why;

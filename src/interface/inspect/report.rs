@@ -2,23 +2,20 @@
 //! and layers; and, where nothing overlaps, what mistake that looks like.
 
 use super::mistakes;
+use super::why::{Finding, why_nothing_overlaps};
 use crate::error::{Result, Text};
-use crate::geometry::{Plane, Vec3};
+use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
 use crate::interface::data::options::Weights;
 use crate::interface::data::pairs::Weighted;
-use crate::interface::data::surface::{Surface, frames};
-use crate::interface::pairing::boxes::Aabb;
-use crate::interface::pairing::filter::LEAST_OPPOSITION;
+use crate::interface::data::surface::Surface;
 use crate::interface::pairing::given::Given;
-use crate::interface::pairing::prism::Prism;
-use crate::interface::pairing::search::Tree;
 use crate::interface::pairing::work::Work;
 use crate::interface::stages::integrate::integrate;
 use crate::interface::stages::layers;
 use crate::interface::stages::sums::{add_offsets, assemble};
 use crate::memory::{self, Store, Stored};
-use crate::mortar::{NonmortarFrame, Segment};
+use crate::mortar::NonmortarFrame;
 
 /// Coverage over area above this is full: facets that meet under an angle lack a part of second order, distorted quads
 /// have an error of the quadrature.
@@ -55,21 +52,6 @@ pub struct NodeCover {
     pub layers: i32,
     /// Mortar facets that overlap with the facets around it.
     pub facets: i64,
-}
-
-/// How the surfaces lie, where that looks like a mistake.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Finding {
-    /// Nothing overlaps and nothing else is wrong.
-    NoOverlap,
-    /// Facets lie over each other, but all of them look the same way.
-    SameWay,
-    /// Opposing facets lie over each other, but deeper behind each other than a pair can.
-    Behind,
-    /// The positions of one side are those that the other side had at first, node by node.
-    Swapped,
-    /// Both node orders look reversed: see `mistakes.rs`.
-    InsideOut,
 }
 
 /// The report at one configuration.
@@ -193,7 +175,7 @@ pub fn report<const N: usize>(given: Given<N>, work: &mut Work, (x1, x2): (&[Vec
     let finding = if mistakes::are_swapped(surfaces, (x1, x2)) {
         Some(Finding::Swapped)
     } else if depths.is_empty() {
-        let why = why_nothing_overlaps(surfaces, (x1, x2))?;
+        let why = why_nothing_overlaps(surfaces, options, (x1, x2))?;
         Some(if why == Finding::NoOverlap && inside_out { Finding::InsideOut } else { why })
     } else {
         inside_out.then_some(Finding::InsideOut)
@@ -263,30 +245,4 @@ fn claims(one: &Surface, pairs: Weighted) -> Result<Vec<i64>> {
     let mut counts = memory::filled(0, one.len())?;
     claims.iter().for_each(|&(a, _)| counts[a] += 1);
     Ok(counts)
-}
-
-/// Looks at all facets that lie over each other, whichever way they look and however deep.
-fn why_nothing_overlaps((one, two): (&Surface, &Surface), (x1, x2): (&[Vec3], &[Vec3])) -> Result<Finding> {
-    if two.analytic.is_some() {
-        return Ok(Finding::NoOverlap);
-    }
-    let facet_box = |f: usize| Aabb::around(two.facet(f, x2).points().iter().copied());
-    let tree = Tree::new((0..two.facets.len()).map(facet_box).stored()?)?;
-    let (mut found, mut same_way) = (Vec::new(), false);
-    for (i, frame) in frames(one, x1)?.iter().enumerate() {
-        tree.find(&Prism::over(one.facet(i, x1).points(), &frame.plane, 0.0), &mut found)?;
-        for &j in &found {
-            let facet = two.facet(j, x2);
-            let opposition = -frame.plane.e.dot(&Plane::of(&facet)?.e);
-            // A facet that cannot be projected lies over none.
-            let lies_over = || Segment::new(frame, &facet).is_ok_and(|s| s.is_some_and(|s| s.area > 0.0));
-            if opposition.abs() > LEAST_OPPOSITION && lies_over() {
-                if opposition > 0.0 {
-                    return Ok(Finding::Behind);
-                }
-                same_way = true;
-            }
-        }
-    }
-    Ok(if same_way { Finding::SameWay } else { Finding::NoOverlap })
 }

@@ -1,9 +1,10 @@
 //! Stage 1 against an analytic mortar side (plane, sphere, cylinder; line, circle): no search and no clipping. A facet that faces the
-//! surface at t_n (now where the normals follow the motion) is a pair with it, and covered everywhere; one that does not
-//! has nothing to do with it. The surface counts as one facet with the frame's four points as its nodes, so that all that
+//! surface at t_n (now where the normals follow the motion) and looks at it now is a pair with it, and covered everywhere; one that
+//! does not has nothing to do with it. Two facets that pass each other within a step lie over each other no more; here a gap along
+//! nu is 0 wherever nu is across x - y, however far off the surface is, and beyond that reads as a penetration. The surface counts as one facet with the frame's four points as its nodes, so that all that
 //! follows from the weights (gaps, forces, slip, history) is as for two facets.
 
-use super::filter::least_opposition;
+use super::filter::{TOUCHES, least_opposition};
 use super::work::{Following, Work};
 use crate::error::Result;
 use crate::geometry::{AnalyticSurface, Facet, Plane, Vec3};
@@ -57,17 +58,34 @@ fn faces(
     let (low, high) = distances.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)));
     let penetration = options.search_distance.unwrap_or_else(|| facet.longest_edge()) + opening;
     let slack = skin * facet.longest_edge();
-    opposes(plane, surface, skin) && low - slack <= gap && high + slack >= -penetration
+    looks(plane, surface, least_opposition(skin)) && low - slack <= gap && high + slack >= -penetration
 }
 
-/// Whether a facet with this plane looks at the surface.
-fn opposes(plane: &Plane, surface: &AnalyticSurface, skin: f64) -> bool {
+/// Whether a facet with this plane looks at the surface, its normals opposing by more than `least`.
+fn looks(plane: &Plane, surface: &AnalyticSurface, least: f64) -> bool {
     let centre = plane.reference - surface.origin + plane.origin;
-    surface.closest(centre).is_some_and(|c| plane.e.dot(&c.normal) < -least_opposition(skin))
+    surface.closest(centre).is_some_and(|c| plane.e.dot(&c.normal) < -least)
 }
 
-/// Which facets are a pair with the surface at x1, where the normals follow the motion: those that face it there, and those
-/// that did at t_n and look at it still, however deep.
+/// The first facet that faced the surface at t_n and through which the surface has passed since: it does not look at it any
+/// more, and is in its body, or in front of it or behind it as seen along its normal. Nothing could hold it in the step
+/// that follows.
+pub fn passed(one: &Surface, surface: &AnalyticSurface, facing: &[bool], x1: &[Vec3]) -> Result<Option<usize>> {
+    let (_, opening) = offsets::reach_of(one);
+    for f in (0..facing.len()).filter(|&f| facing[f]) {
+        let facet = one.facet(f, x1);
+        let plane = Plane::of(&facet).map_err(one.at(f))?;
+        let (centre, margin) = (plane.reference - surface.origin + plane.origin, opening + TOUCHES * facet.longest_edge());
+        let is_in = || surface.distance(centre) < -margin || surface.is_met_along(centre, plane.e, margin);
+        if !looks(&plane, surface, 0.0) && is_in() {
+            return Ok(Some(f));
+        }
+    }
+    Ok(None)
+}
+
+/// Which facets are a pair with the surface at x1: those that faced it at t_n and look at it still, however deep; where the
+/// normals follow the motion those, too, that face it there.
 pub fn facing_now<'a>(
     one: &'a Surface,
     (surface, facing): (&'a AnalyticSurface, &'a [bool]),
@@ -76,7 +94,8 @@ pub fn facing_now<'a>(
 ) -> impl Fn((usize, &Plane)) -> bool + 'a {
     let reach = offsets::reach_of(one);
     move |(i, plane)| {
-        facing[i] && opposes(plane, surface, 0.0) || faces(&one.facet(i, x1), plane, surface, (options, reach), 0.0)
+        let still = facing[i] && looks(plane, surface, 0.0);
+        still || options.follows_normals() && faces(&one.facet(i, x1), plane, surface, (options, reach), 0.0)
     }
 }
 
@@ -98,8 +117,8 @@ pub fn integrate(
     for i in 0..one.facets.len() {
         let (frame, place) = (one.frame(i, x1, &active.normals)?, active.pairs.len());
         counters.pairs_tested += 1;
-        let is_pair = if options.follows_normals() { faces_now((i, &frame.plane)) } else { facing[i] };
-        if is_pair && !one.is_idle(i) {
+    
+        if faces_now((i, &frame.plane)) && !one.is_idle(i) {
             let weights = match &one.parents {
                 None => analytic_weights(&frame, &surface, options.rule).map_err(one.at(i))?,
                 Some(parents) => {

@@ -10,12 +10,19 @@
 
 use crate::error::Result;
 use crate::geometry::{Facet, Plane, Vec3};
-use crate::interface::data::surface::Surface;
+use crate::interface::data::surface::{NO_FACET, Surface};
 use crate::memory::{self, Stored};
 
 /// Facets whose normals oppose each other less than this are no pair: beyond 80 degrees the
 /// projection degenerates, and faces that look the same way must not be found.
 pub const LEAST_OPPOSITION: f64 = 0.17;
+/// A pair may be as deep as this part of the thinner of the two walls behind it. Far sides of two bodies are behind each other by
+/// both thicknesses, those of one body and of a rim of the other by about one.
+const PART_OF_WALL: f64 = 0.45;
+/// A facet that is open all over by more than this (over the non-mortar facet's longest edge) touches nothing: a node that
+/// has such pairs alone is closed by the rounding of a gap across its normal. Far above what rounding makes of a flat
+/// contact, far below a gap.
+pub const TOUCHES: f64 = 1e-6;
 /// Neighbouring facets whose normals have a scalar product above this (45 degrees) approximate one smooth surface;
 /// below it there is an edge, which says nothing about a bulge.
 pub const SMOOTH: f64 = 0.7;
@@ -59,6 +66,8 @@ pub struct Side {
     pub edges: Vec<f64>,
     /// How far the surface may lie off each of them `[L]`.
     pub bulges: Vec<f64>,
+    /// How thick the wall behind each of them is `[L]`; empty: none has a back in its surface.
+    pub walls: Vec<f64>,
     /// The largest of the edges and of the bulges `[L]`.
     largest: (f64, f64),
 }
@@ -88,11 +97,21 @@ impl Side {
         let bulges: Vec<_> = (0..facets.len()).map(bulge).stored()?;
         let largest = |v: &[f64]| v.iter().copied().fold(0.0, f64::max);
         let largest = (largest(&edges), largest(&bulges));
-        Ok(Side { facets, edges, bulges, largest })
+        let wall = |(f, back): (usize, &u32)| match back {
+            &NO_FACET => f64::INFINITY,
+            &back => thickness(&facets[f].1, &facets[back as usize].1).max(0.0),
+        };
+        let walls = surface.backs.iter().enumerate().map(wall).stored()?;
+        Ok(Side { facets, edges, bulges, walls, largest })
     }
 }
 
 impl Side {
+    /// The deepest penetration of a pair of this facet that is none through its wall `[L]`.
+    fn within_wall(&self, f: usize) -> f64 {
+        PART_OF_WALL * self.walls.get(f).copied().unwrap_or(f64::INFINITY)
+    }
+
     /// The surface that is meant lies behind its facets, by so much: pairs may be as much deeper.
     pub fn raise(&mut self, offset: f64) {
         if offset > 0.0 {
@@ -100,6 +119,11 @@ impl Side {
             self.largest.1 += offset;
         }
     }
+}
+
+/// How far the centre of a facet with the plane `back` lies behind another one `[L]`.
+pub fn thickness(facet: &Plane, back: &Plane) -> f64 {
+    facet.e.dot(&((facet.reference - back.reference) + (facet.origin - back.origin)))
 }
 
 /// How far a facet's nodes lie off its plane `[L]`.
@@ -192,7 +216,9 @@ impl FacetFilter {
 
     /// The deepest penetration at which they can be a pair `[L]`.
     fn penetration(&self, i: usize, j: usize) -> f64 {
-        self.distance.unwrap_or_else(|| self.penetrations(i, j)[0] + self.depths.get(j).copied().unwrap_or(0.0))
+        let [one, two] = &self.sides;
+        let own = || self.penetrations(i, j)[0] + self.depths.get(j).copied().unwrap_or(0.0);
+        self.distance.unwrap_or_else(own).min(one.within_wall(i)).min(two.within_wall(j))
     }
 
     /// What of it follows from their sizes and bulges, and how deep the coarser of them lets a body in at most.

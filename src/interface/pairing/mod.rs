@@ -15,5 +15,6 @@ pub mod prism;
 pub mod reach;
 pub mod search;
 pub mod settle;
+pub mod walls;
 pub mod weak;
 pub mod work;

@@ -9,11 +9,13 @@ use crate::memory;
 
 /// Which nodes have a normal that looks away from an analytic mortar side. A gap runs along the surface's normal n. At a sharp
 /// edge one facet may face the surface while the averaged nu leans past the horizontal: nu . n < 0, and an open gap would read
-/// as a penetration. Such a node touches nothing. Of the positions that nu is of: of t_n alone, or of now.
+/// as a penetration. Such a node touches nothing. At the positions that nu is of, of t_n or of now; and now, for the surface may
+/// have gone past a node within the step: the gap is 0 where nu is across n, however far off the surface is. There a node in the
+/// surface's body looks away only where it looks the same way.
 pub struct LookingAway<'a, const N: usize> {
     given: Given<'a, N>,
-    surface: AnalyticSurface,
-    x1: &'a [Vec3],
+    surfaces: [AnalyticSurface; 2],
+    x1: [&'a [Vec3]; 2],
 }
 
 impl<'a, const N: usize> LookingAway<'a, N> {
@@ -24,18 +26,20 @@ impl<'a, const N: usize> LookingAway<'a, N> {
             return Ok(None);
         }
         let (h, follows) = (given.history(), given.step.now.is_some());
-        let (x1, x2) = if follows { (x1, x2) } else { (&h.x1[..], &h.x2[..]) };
-        Ok(Some(LookingAway { given, surface: mortar.analytic_at(x2)?, x1 }))
+        let of_normals = if follows { (x1, x2) } else { (&h.x1[..], &h.x2[..]) };
+        let surfaces = [mortar.analytic_at(of_normals.1)?, mortar.analytic_at(x2)?];
+        Ok(Some(LookingAway { given, surfaces, x1: [of_normals.0, x1] }))
     }
 
     /// Whether node a does.
     pub fn is(&self, a: usize) -> Result<bool> {
         // A normal that is undefined, or a node on the axis, is refused where it is needed.
-        let (Some(nu), Some(closest)) =
-            (memory::if_accepted(self.given.normal(a))?, self.surface.closest(self.x1[a] - self.surface.origin))
-        else {
-            return Ok(false);
-        };
-        Ok(nu.dot(&closest.normal) < LEAST_OPPOSITION)
+        let Some(nu) = memory::if_accepted(self.given.normal(a))? else { return Ok(false) };
+        let [then, now] = [0, 1].map(|k| {
+            let closest = self.surfaces[k].closest(self.x1[k][a] - self.surfaces[k].origin);
+            closest.map(|c| (nu.dot(&c.normal), c.distance))
+        });
+        let is_away = |(along, distance): (f64, f64), in_body: f64| along < if distance > 0.0 { LEAST_OPPOSITION } else { in_body };
+        Ok(then.is_some_and(|then| is_away(then, LEAST_OPPOSITION)) || now.is_some_and(|now| is_away(now, 0.0)))
     }
 }

@@ -7,16 +7,13 @@ use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::interface::data::pairs::PairRecord;
 use crate::interface::data::setup::Setup;
-use crate::interface::pairing::filter::Filter;
+use crate::interface::pairing::analytic;
+use crate::interface::pairing::filter::{Filter, TOUCHES};
 use crate::law::{NodeResponse, State};
 use crate::memory;
 
 /// A pair with less of a node's area carries none of its traction: the rounding of an overlap.
 const NOTHING: f64 = 1e-12;
-/// A facet that is open all over by more than this (over the non-mortar facet's longest edge) touches nothing: a node that
-/// has such pairs alone is closed by the rounding of a gap across its normal. Far above what rounding makes of a flat
-/// contact, far below a gap.
-const TOUCHES: f64 = 1e-6;
 
 /// Refuses a commit at (x1, x2) after which a closed node would have lost a pair because it is deep, or all that covers it.
 /// `dropped`: the pairs of now that will be none, as they were integrated; of weights of now: frozen ones do not say what the
@@ -66,6 +63,18 @@ pub fn refuse_lost_contact<const N: usize>(
             Err(Error::new(Kind::ContactLost, text))
         }
     }
+}
+
+/// Refuses a commit at (x1, x2) of a step in which an analytic mortar side has passed through a facet that faced it.
+/// `filter`: that of the step.
+pub fn refuse_passed<const N: usize>(setup: &Setup<N>, filter: Option<&Filter>, (x1, x2): (&[Vec3], &[Vec3])) -> Result<()> {
+    let Some(Filter::Analytic(facing)) = filter else { return Ok(()) };
+    let Some(f) = analytic::passed(&setup.nonmortar, &setup.mortar.analytic_at(x2)?, facing, x1)? else { return Ok(()) };
+    let text = text!(
+        "the analytic mortar surface has passed through non-mortar facet {} within the step, so that the facet no longer looks at it; take a smaller step",
+        setup.nonmortar.host_facet(f)
+    );
+    Err(Error::new(Kind::ContactLost, text))
 }
 
 /// The least distance of a facet's nodes to the analytic mortar side `[L]`.
