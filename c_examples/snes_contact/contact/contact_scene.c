@@ -344,7 +344,8 @@ PetscErrorCode contact_fields(const Contact *contact, Field **fields)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Which multipliers are no unknowns: the removed components; without friction, that of a node which is prescribed wholly. */
+/* Which multipliers are no unknowns: the removed components; without friction, that of a node which is prescribed wholly. Copies of
+ * a vertex have the same ones. */
 PetscErrorCode contact_label(Contact *contact)
 {
   const Mesh *mesh = contact->mesh;
@@ -357,13 +358,14 @@ PetscErrorCode contact_label(Contact *contact)
     PetscInt        *mask, n = 0;
     PetscCall(PetscMalloc1(interface->n1 + interface->n2, &mask));
     for (PetscInt a = 0; a < interface->n1; a++)
-      mask[a] = contact->condensed ? 7 : interface->components > 1 ? interface->removed[a] : interface->removed[a] == 7;
+      mask[a] = FIELD_COPY * interface->copies[a] +
+                (contact->condensed ? 7 : interface->components > 1 ? interface->removed[a] : interface->removed[a] == 7);
     for (PetscInt b = 0; b < interface->n2; b++)
       mask[interface->n1 + b] = -1;
     for (PetscInt v = 0; v < mesh->n_vertices; v++)
       here[v] = -1;
-    PetscCall(PetscSFReduceBegin(interface->pieces, MPIU_INT, mask, here, MPI_REPLACE));
-    PetscCall(PetscSFReduceEnd(interface->pieces, MPIU_INT, mask, here, MPI_REPLACE));
+    PetscCall(PetscSFReduceBegin(interface->pieces, MPIU_INT, mask, here, MPI_MAX)); /* of copies the last one's */
+    PetscCall(PetscSFReduceEnd(interface->pieces, MPIU_INT, mask, here, MPI_MAX));
     PetscCall(pieces_unite(mesh, here, MPI_MAX));
     for (PetscInt v = 0; v < mesh->n_vertices; v++) {
       if (here[v] < 0) continue;

@@ -37,7 +37,7 @@ static PetscErrorCode create_homes(Contact *contact, Interface *interface)
   const PetscInt zero = 0;
   const PetscInt *nodes = interface->nodes;
   PetscFunctionBegin;
-  PetscCall(unknowns_gather_create(contact->physics, 1, &n, &nodes, &zero, &d, &interface->sf));
+  PetscCall(unknowns_gather_create(contact->physics, 1, &n, &nodes, NULL, &zero, &d, &interface->sf));
   PetscCall(PetscCalloc4(d * n, &interface->X, d * n, &interface->displacements, d * n, &interface->forces, d * n,
                          &interface->equations));
   PetscCall(contact_equations(contact, interface->sf, d * n, interface->equations));
@@ -127,6 +127,7 @@ static PetscErrorCode choose_owners(const Contact *contact, PetscInt number, Pet
   if (!whole && !must_be_whole(contact, interface))
     PetscCall(partition_nodes(PETSC_COMM_WORLD, interface->dimension, interface->n1, interface->first[0], interface->X, work, size,
                               interface->owner));
+  PetscCall(creases_join(contact->mesh, interface, interface->owner));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -234,6 +235,11 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
     PetscCall(create_parts(contact, i, status));
     if (*status) break;
     PetscCall(check_facing(scene, quiet, interface, mesh->rank));
+    if (interface->uncreased && interface->n_creased && !quiet)
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+                            "%s: '%s' has sharp edges, and %s leaves their nodes one normal for both sides: forces there are wrong where only one "
+                            "of the sides touches. Name the faces that touch alone.\n",
+                            interface->name, interface->surface[0]->name, interface->uncreased));
   }
   if (!*status) PetscCall(condensed_create(contact, status));
   PetscFunctionReturn(PETSC_SUCCESS);
