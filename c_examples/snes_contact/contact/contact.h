@@ -219,6 +219,9 @@ PetscErrorCode homes_bcast(PetscSF sf, PetscInt width, const double from[], doub
 PetscErrorCode homes_coordinates(const Interface *interface, PetscInt n, const PetscInt numbers[], double X[]);
 PetscLogDouble homes_bytes(const Interface *interface); /* that this rank keeps */
 
+/* weak.c: what becomes of hardly covered nodes; `created`: there is a handle to be asked, and `chosen`: it is to be made anew */
+PetscErrorCode weak_choose(Interface *interface, PetscBool created, PetscBool *chosen);
+
 /* symmetry.c: of the non-mortar nodes */
 PetscErrorCode symmetry_mask(const Physics *physics, const Interface *interface, PetscInt mask[]);
 

@@ -168,7 +168,7 @@ static void read_method(Scene *scene, const Physics *physics, Interface *interfa
   PetscInt  basis = STICKSLIP_BASIS_STANDARD, normal = STICKSLIP_NORMALS_COMMITTED, weight,
            slip = STICKSLIP_SLIP_OBJECTIVE, form = STICKSLIP_FORM_MULTIPLIER,
            new_contact = STICKSLIP_NEW_CONTACT_FRICTIONLESS, row_scale = STICKSLIP_ROW_SCALE_FORCE;
-  PetscReal augmentation = 0, modulus = 0, distance = 0, weak_coverage = 0, turn_max = 0, coverage_min = options->coverage_min;
+  PetscReal augmentation = 0, modulus = 0, distance = 0, weak_coverage = options->weak_coverage, turn_max = 0, coverage_min = options->coverage_min;
 
   char      word[NAME_LENGTH] = "";
 

@@ -188,7 +188,7 @@ static PetscErrorCode create_parts(Contact *contact, PetscInt number, PetscInt *
 {
   Interface *interface = &contact->interfaces[number];
   const Vec  start[1][2] = {{contact->committed, NULL}};
-  PetscBool  too_deep = PETSC_FALSE;
+  PetscBool  too_deep = PETSC_FALSE, weak;
   PetscReal  depth;
   double    *work;
   PetscFunctionBegin;
@@ -197,9 +197,11 @@ static PetscErrorCode create_parts(Contact *contact, PetscInt number, PetscInt *
   for (PetscInt a = 0; a < interface->n1; a++)
     work[a] = 1;
   PetscCall(choose_owners(contact, number, PETSC_FALSE, work));
+  PetscCall(weak_choose(interface, PETSC_FALSE, &weak));
   PetscCall(part_create(contact, number, 1, start));
   PetscCall(create_library(contact, interface, status));
-  if (!*status && interface->n_parts > 1) {
+  if (!*status) PetscCall(weak_choose(interface, PETSC_TRUE, &weak));
+  if (!*status && (interface->n_parts > 1 || weak)) {
     PetscReal shortest, offset = 0;
     PetscCall(work_measure(interface, contact->mesh->rank, work, &depth, &shortest));
     PetscCall(largest_offset(interface, &offset));
