@@ -76,7 +76,7 @@
  * heat across the interface; interface_history_size,
  * interface_history_export, interface_history_import for restarts; interface_sums on several processes;
  * interface_counters, interface_effects, interface_report, interface_diagnose. Where normals follow the motion: interface_turn_multipliers
- * at the start of a step, interface_use_normals for a step in two phases. Before it: surface_split_creases where a non-mortar surface
+ * at the start of a step, interface_use_normals for a step in two phases. Before it: surface_split_creases or lines_split_creases where a non-mortar surface
  * has sharp edges, crosspoints_find where interfaces share nodes.
  *
  * A host without multipliers among its unknowns (dual basis) has in place of pattern, residual and tangent:
@@ -1356,6 +1356,18 @@ int32_t stickslip_surface_split_creases(const struct stickslip_surface *surface,
                                         int64_t *facet_nodes,
                                         int64_t *originals,
                                         int64_t *count);
+
+/// `stickslip_surface_split_creases` for the lines of a plane or axisymmetric model: n_nodes points of two coordinates and
+/// facets of 2 or 3 nodes, as `stickslip_interface_create` takes them with these models. A node whose two lines meet at
+/// more than angle is listed once for each; lines with a node in the middle are not split there. Everything else, what
+/// the new surface takes, errors and cost: as there.
+int32_t stickslip_lines_split_creases(const struct stickslip_surface *surface,
+                                      double angle,
+                                      int32_t index_base,
+                                      int64_t capacity,
+                                      int64_t *facet_nodes,
+                                      int64_t *originals,
+                                      int64_t *count);
 
 /// The nodes that several interfaces of a host share in a way that matters (crosspoints). Nodes that are mortar alone,
 /// in however many interfaces, do not.

@@ -4,7 +4,9 @@ use super::guard::guard;
 use super::surface::{read_facets, stickslip_surface};
 use super::{raw, sized};
 use crate::error::{Error, Kind, Result};
+use crate::features;
 use crate::interface::{InterfaceNodes, Surface, crosspoints};
+use crate::line::Measure;
 use crate::memory::{self, Stored};
 
 /// Splits the nodes on creases of a non-mortar surface: gives each fan of facets that look nearly the same way nodes of
@@ -37,24 +39,66 @@ pub unsafe extern "C" fn stickslip_surface_split_creases(
     originals: *mut i64,
     count: *mut i64,
 ) -> i32 {
+    guard(|| split((surface, None), angle, index_base, Outputs { capacity, facet_nodes, originals, count }))
+}
+
+/// `stickslip_surface_split_creases` for the lines of a plane or axisymmetric model: n_nodes points of two coordinates and
+/// facets of 2 or 3 nodes, as `stickslip_interface_create` takes them with these models. A node whose two lines meet at
+/// more than angle is listed once for each; lines with a node in the middle are not split there. Everything else, what
+/// the new surface takes, errors and cost: as there.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_lines_split_creases(
+    surface: *const stickslip_surface,
+    angle: f64,
+    index_base: i32,
+    capacity: i64,
+    facet_nodes: *mut i64,
+    originals: *mut i64,
+    count: *mut i64,
+) -> i32 {
     guard(|| {
-        raw::check(surface, "surface")?;
-        raw::check(count, "count")?;
-        let base = read_base(index_base)?;
-        let (x, facets) = read_facets(&sized::read(surface)?, base, "surface", false)?;
-        let equations = memory::filled([crate::interface::NO_EQUATION; 3], x.len())?;
-        let split = Surface::new("surface", x, &facets, equations)?.split_creases(angle)?;
-        let n = split.originals.len();
-        if !(facet_nodes.is_null() && originals.is_null()) {
-            raw::check(facet_nodes, "facet_nodes")?;
-            raw::check(originals, "originals")?;
-            raw::room(capacity, n, "originals")?;
-            raw::write_each(facet_nodes, split.facet_nodes.iter().map(|&k| k as i64 + base));
-            raw::write_each(originals, split.originals.iter().map(|&k| k as i64 + base));
-        }
-        raw::write(count, &[n as i64]);
-        Ok(())
+        features::needs!(LINES);
+        // Which way a corner of a line looks does not depend on what the line stands for.
+        let measure = Some(Measure::Thickness(1.0));
+        split((surface, measure), angle, index_base, Outputs { capacity, facet_nodes, originals, count })
     })
+}
+
+/// Where a split surface goes.
+struct Outputs {
+    capacity: i64,
+    facet_nodes: *mut i64,
+    originals: *mut i64,
+    count: *mut i64,
+}
+
+/// Splits a surface, of lines where these have a measure.
+fn split(
+    (surface, measure): (*const stickslip_surface, Option<Measure>),
+    angle: f64,
+    index_base: i32,
+    to: Outputs,
+) -> Result<()> {
+    raw::check(surface, "surface")?;
+    raw::check(to.count, "count")?;
+    let base = read_base(index_base)?;
+    let (x, facets) = read_facets(&sized::read(surface)?, base, "surface", measure.is_some())?;
+    let equations = memory::filled([crate::interface::NO_EQUATION; 3], x.len())?;
+    let surface = match measure {
+        None => Surface::new("surface", x, &facets, equations),
+        Some(measure) => Surface::of_lines("surface", x, &facets, equations, measure),
+    };
+    let split = surface?.split_creases(angle)?;
+    let n = split.originals.len();
+    if !(to.facet_nodes.is_null() && to.originals.is_null()) {
+        raw::check(to.facet_nodes, "facet_nodes")?;
+        raw::check(to.originals, "originals")?;
+        raw::room(to.capacity, n, "originals")?;
+        raw::write_each(to.facet_nodes, split.facet_nodes.iter().map(|&k| k as i64 + base));
+        raw::write_each(to.originals, split.originals.iter().map(|&k| k as i64 + base));
+    }
+    raw::write(to.count, &[n as i64]);
+    Ok(())
 }
 
 /// Kind of a shared node: non-mortar in more than one interface. Where it sticks or is tied in two of them, six

@@ -59,7 +59,7 @@ typedef struct {
   PetscInt *piece;                 /* n1 + n2: the model's part (physics.h) that each belongs to */
   PetscInt *counts;                /* n1 + n2: is it this rank that counts it where each counts once? */
   PetscInt *owner, *index;         /* n1: which rank owns the node, and its number in the part there */
-  PetscInt  *removed;              /* n1: as the interface's */
+  PetscInt  *removed, *copies;     /* n1: as the interface's */
   PetscBool *middle;               /* n1: likewise */
   PetscInt  n_facets[2], *facets[2], *offsets[2], *facet_nodes[2]; /* by side; facets: their numbers in the interface */
   int32_t  *owned;                 /* n1: STICKSLIP_NODE_... */
@@ -127,6 +127,9 @@ typedef struct {
   PetscInt       body[2];    /* of either side */
   PetscInt      *nodes;      /* n1 + n2 mesh vertices */
   PetscReal     *place;      /* 3 (n1 + n2): where they are, in the axes of the scene file; then X */
+  PetscInt      *copies;     /* n1: which copy of its vertex each is, on creases (creases.c); else 0 */
+  PetscInt       n_copies, n_creased; /* of all ranks, beside the first ones; corners of faces that want one */
+  const char    *uncreased;  /* why they have none */
   PetscInt      *prescribed, *part_of; /* n1 + n2: mask of prescribed displacements; the model's part (physics.h) */
   PetscSF        pieces;     /* from the vertices of the mesh's pieces to the nodes, until the mesh is distributed */
   PetscInt      *removed;    /* n1: mask of directions without a multiplier, see read_surfaces() */
@@ -211,6 +214,10 @@ PetscErrorCode surfaces_read(Scene *scene, Contact *contact, Interface *interfac
 PetscErrorCode surfaces_move(Contact *contact, const Interface *interface);
 PetscErrorCode surfaces_destroy(Interface *interface);
 
+/* creases.c: the nodes of the non-mortar surface, those on sharp edges once for each side: `nodes`, in place of the homes that there are */
+PetscErrorCode creases_split(Scene *scene, const Contact *contact, Interface *interface, PetscInt **nodes); /* NULL: none is split */
+PetscErrorCode creases_join(const Mesh *mesh, const Interface *interface, PetscInt owner[]); /* copies of a vertex have one owner */
+
 /* homes.c: the number of a node here in the interface, where those of the mortar side follow the others; from homes to the nodes of these
  * numbers, `width` numbers a node; coordinates of these */
 PetscErrorCode homes_create(const Mesh *mesh, Interface *interface);
@@ -220,6 +227,9 @@ PetscErrorCode homes_fetch_create(const Interface *interface, PetscInt n, const 
 PetscErrorCode homes_bcast(PetscSF sf, PetscInt width, const double from[], double to[]);
 PetscErrorCode homes_coordinates(const Interface *interface, PetscInt n, const PetscInt numbers[], double X[]);
 PetscLogDouble homes_bytes(const Interface *interface); /* that this rank keeps */
+
+/* weak.c: what becomes of hardly covered nodes; `created`: there is a handle to be asked, and `chosen`: it is to be made anew */
+PetscErrorCode weak_choose(Interface *interface, PetscBool created, PetscBool *chosen);
 
 /* symmetry.c: of the non-mortar nodes */
 PetscErrorCode symmetry_mask(const Physics *physics, const Interface *interface, PetscInt mask[]);

@@ -159,7 +159,7 @@ static void read_method(Scene *scene, Interface *interface)
   PetscInt  basis = STICKSLIP_BASIS_STANDARD, normal = STICKSLIP_NORMALS_COMMITTED, weight = STICKSLIP_WEIGHTS_CURRENT,
            slip = STICKSLIP_SLIP_OBJECTIVE, form = STICKSLIP_FORM_MULTIPLIER,
            new_contact = STICKSLIP_NEW_CONTACT_FRICTIONLESS, row_scale = STICKSLIP_ROW_SCALE_FORCE;
-  PetscReal augmentation = 0, modulus = 0, distance = 0, weak_coverage = 0, turn_max = 0, coverage_min = options->coverage_min;
+  PetscReal augmentation = 0, modulus = 0, distance = 0, weak_coverage = options->weak_coverage, turn_max = 0, coverage_min = options->coverage_min;
 
   char      word[NAME_LENGTH] = "";
 
@@ -334,7 +334,8 @@ PetscErrorCode contact_fields(const Contact *contact, Field **fields)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Which multipliers are no unknowns: the removed components; without friction, that of a node which is prescribed wholly. */
+/* Which multipliers are no unknowns: the removed components; without friction, that of a node which is prescribed wholly. Copies of
+ * a vertex have the same ones. */
 PetscErrorCode contact_label(Contact *contact)
 {
   const Mesh *mesh = contact->mesh;
@@ -347,13 +348,14 @@ PetscErrorCode contact_label(Contact *contact)
     PetscInt        *mask, n = 0;
     PetscCall(PetscMalloc1(interface->n1 + interface->n2, &mask));
     for (PetscInt a = 0; a < interface->n1; a++)
-      mask[a] = contact->condensed ? 7 : interface->components > 1 ? interface->removed[a] : interface->removed[a] == 7;
+      mask[a] = FIELD_COPY * interface->copies[a] +
+                (contact->condensed ? 7 : interface->components > 1 ? interface->removed[a] : interface->removed[a] == 7);
     for (PetscInt b = 0; b < interface->n2; b++)
       mask[interface->n1 + b] = -1;
     for (PetscInt v = 0; v < mesh->n_vertices; v++)
       here[v] = -1;
-    PetscCall(PetscSFReduceBegin(interface->pieces, MPIU_INT, mask, here, MPI_REPLACE));
-    PetscCall(PetscSFReduceEnd(interface->pieces, MPIU_INT, mask, here, MPI_REPLACE));
+    PetscCall(PetscSFReduceBegin(interface->pieces, MPIU_INT, mask, here, MPI_MAX)); /* of copies the last one's */
+    PetscCall(PetscSFReduceEnd(interface->pieces, MPIU_INT, mask, here, MPI_MAX));
     PetscCall(pieces_unite(mesh, here, MPI_MAX));
     for (PetscInt v = 0; v < mesh->n_vertices; v++) {
       if (here[v] < 0) continue;

@@ -37,7 +37,7 @@ static PetscErrorCode create_homes(Contact *contact, Interface *interface)
   const PetscInt zero = 0;
   const PetscInt *nodes = interface->nodes;
   PetscFunctionBegin;
-  PetscCall(unknowns_gather_create(contact->physics, 1, &n, &nodes, &zero, &d, &interface->sf));
+  PetscCall(unknowns_gather_create(contact->physics, 1, &n, &nodes, NULL, &zero, &d, &interface->sf));
   PetscCall(PetscCalloc4(d * n, &interface->X, d * n, &interface->displacements, d * n, &interface->forces, d * n,
                          &interface->equations));
   PetscCall(contact_equations(contact, interface->sf, d * n, interface->equations));
@@ -127,6 +127,7 @@ static PetscErrorCode choose_owners(const Contact *contact, PetscInt number, Pet
   if (!whole && !must_be_whole(contact, interface))
     PetscCall(partition_nodes(PETSC_COMM_WORLD, interface->dimension, interface->n1, interface->first[0], interface->X, work, size,
                               interface->owner));
+  PetscCall(creases_join(contact->mesh, interface, interface->owner));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -187,7 +188,7 @@ static PetscErrorCode create_parts(Contact *contact, PetscInt number, PetscInt *
 {
   Interface *interface = &contact->interfaces[number];
   const Vec  start[1][2] = {{contact->committed, NULL}};
-  PetscBool  too_deep = PETSC_FALSE;
+  PetscBool  too_deep = PETSC_FALSE, weak;
   PetscReal  depth;
   double    *work;
   PetscFunctionBegin;
@@ -196,9 +197,11 @@ static PetscErrorCode create_parts(Contact *contact, PetscInt number, PetscInt *
   for (PetscInt a = 0; a < interface->n1; a++)
     work[a] = 1;
   PetscCall(choose_owners(contact, number, PETSC_FALSE, work));
+  PetscCall(weak_choose(interface, PETSC_FALSE, &weak));
   PetscCall(part_create(contact, number, 1, start));
   PetscCall(create_library(contact, interface, status));
-  if (!*status && interface->n_parts > 1) {
+  if (!*status) PetscCall(weak_choose(interface, PETSC_TRUE, &weak));
+  if (!*status && (interface->n_parts > 1 || weak)) {
     PetscReal shortest, offset = 0;
     PetscCall(work_measure(interface, contact->mesh->rank, work, &depth, &shortest));
     PetscCall(largest_offset(interface, &offset));
@@ -234,6 +237,11 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
     PetscCall(create_parts(contact, i, status));
     if (*status) break;
     PetscCall(check_facing(scene, quiet, interface, mesh->rank));
+    if (interface->uncreased && interface->n_creased && !quiet)
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+                            "%s: '%s' has sharp edges, and %s leaves their nodes one normal for both sides: forces there are wrong where only one "
+                            "of the sides touches. Name the faces that touch alone.\n",
+                            interface->name, interface->surface[0]->name, interface->uncreased));
   }
   if (!*status) PetscCall(condensed_create(contact, status));
   PetscFunctionReturn(PETSC_SUCCESS);

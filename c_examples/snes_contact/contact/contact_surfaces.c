@@ -87,11 +87,34 @@ static PetscErrorCode find(Scene *scene, const Mesh *mesh, Interface *interface,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Of the vertices of both sides, what there is to know of them here. */
+static PetscErrorCode make_nodes(const Mesh *mesh, Interface *interface, PetscInt *const nodes[2])
+{
+  const PetscInt n = interface->n1 + interface->n2;
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc4(n, &interface->nodes, 3 * n, &interface->place, n, &interface->prescribed, n, &interface->part_of));
+  PetscCall(PetscArraycpy(interface->nodes, nodes[0], interface->n1));
+  PetscCall(PetscArraycpy(interface->nodes + interface->n1, nodes[1], interface->n2));
+  PetscCall(homes_create(mesh, interface));
+  PetscCall(pieces_fetch_create(mesh, n, interface->nodes, &interface->pieces));
+  PetscCall(fetch_places(mesh, interface));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode forget_nodes(Interface *interface)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree4(interface->nodes, interface->place, interface->prescribed, interface->part_of));
+  PetscCall(PetscSFDestroy(&interface->pieces));
+  PetscCall(homes_destroy(interface));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode surfaces_read(Scene *scene, Contact *contact, Interface *interface)
 {
   const Mesh    *mesh = contact->mesh;
   const Surface *found[2];
-  PetscInt      *nodes[2], n;
+  PetscInt      *nodes[2], *split;
   PetscFunctionBegin;
   PetscCall(find(scene, mesh, interface, found));
   PetscCall(timed_refuse(scene, contact->physics, interface->name, found[0]));
@@ -99,17 +122,19 @@ PetscErrorCode surfaces_read(Scene *scene, Contact *contact, Interface *interfac
     PetscCall(surface_share(mesh, found[side], &interface->share[side], side ? &interface->n2 : &interface->n1, &nodes[side]));
     interface->surface[side] = &interface->share[side];
   }
-  n = interface->n1 + interface->n2;
-  PetscCall(PetscMalloc4(n, &interface->nodes, 3 * n, &interface->place, n, &interface->prescribed, n, &interface->part_of));
-  PetscCall(PetscArraycpy(interface->nodes, nodes[0], interface->n1));
-  PetscCall(PetscArraycpy(interface->nodes + interface->n1, nodes[1], interface->n2));
-  PetscCall(PetscFree(nodes[0]));
-  PetscCall(PetscFree(nodes[1]));
-  PetscCall(homes_create(mesh, interface));
+  PetscCall(PetscCalloc1(interface->n1, &interface->copies));
+  PetscCall(make_nodes(mesh, interface, nodes));
   PetscCall(find_bodies(mesh, interface));
   PetscCall(check_apart(scene, mesh, interface));
-  PetscCall(pieces_fetch_create(mesh, n, interface->nodes, &interface->pieces));
-  PetscCall(fetch_places(mesh, interface));
+  PetscCall(creases_split(scene, contact, interface, &split));
+  if (split) {
+    PetscCall(PetscFree(nodes[0]));
+    nodes[0] = split;
+    PetscCall(forget_nodes(interface));
+    PetscCall(make_nodes(mesh, interface, nodes));
+  }
+  PetscCall(PetscFree(nodes[0]));
+  PetscCall(PetscFree(nodes[1]));
   PetscCall(PetscSFBcastBegin(interface->pieces, MPIU_INT, contact->physics->prescribed, interface->prescribed, MPI_REPLACE));
   PetscCall(PetscSFBcastEnd(interface->pieces, MPIU_INT, contact->physics->prescribed, interface->prescribed, MPI_REPLACE));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -120,8 +145,7 @@ PetscErrorCode surfaces_destroy(Interface *interface)
   PetscFunctionBegin;
   for (int side = 0; side < 2; side++)
     PetscCall(surface_destroy(&interface->share[side]));
-  PetscCall(PetscFree4(interface->nodes, interface->place, interface->prescribed, interface->part_of));
-  PetscCall(PetscSFDestroy(&interface->pieces));
-  PetscCall(homes_destroy(interface));
+  PetscCall(PetscFree(interface->copies));
+  PetscCall(forget_nodes(interface));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

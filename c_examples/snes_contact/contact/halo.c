@@ -221,7 +221,7 @@ PetscErrorCode halo_watch(Contact *contact, Interface *interface)
   halo->n_watched = interface->n2;
   PetscCall(PetscMalloc2(3 * halo->n_watched, &halo->X_watched, 3 * halo->n_watched, &halo->watched_t_n));
   PetscCall(PetscArraycpy(halo->X_watched, interface->X + 3 * interface->n1, 3 * halo->n_watched));
-  PetscCall(unknowns_gather_create(contact->physics, 1, &halo->n_watched, &asked, &field, &width, &halo->watch));
+  PetscCall(unknowns_gather_create(contact->physics, 1, &halo->n_watched, &asked, NULL, &field, &width, &halo->watch));
   halo->margin = MARGIN * interface->longest_edge;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -234,7 +234,7 @@ PetscErrorCode halo_begin(Contact *contact, Interface *interface)
   const PetscInt     field = 0, width = 3;
   const PetscInt    *asked = part->vertices;
   PetscFunctionBegin;
-  PetscCall(unknowns_gather_create(contact->physics, 1, &part->n1, &asked, &field, &width, &halo->nodes));
+  PetscCall(unknowns_gather_create(contact->physics, 1, &part->n1, &asked, NULL, &field, &width, &halo->nodes));
   PetscCall(PetscMalloc2(3 * part->n1, &halo->X, 3 * part->n1, &halo->x_t_n));
   PetscCall(homes_coordinates(interface, part->n1, part->nodes, halo->X));
   PetscCall(choose_boxes(interface));

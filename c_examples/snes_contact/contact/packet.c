@@ -18,8 +18,9 @@ static PetscErrorCode put(Packet *packet, PetscInt n, const PetscInt numbers[])
 }
 
 /* Of a node: its number in the interface, its vertex, its part of the model, whether the part counts it; of a non-mortar one which rank
- * owns it, its multiplier's removed components, whether it is in the middle of corners. */
-enum { WIDTH_MORTAR = 4, WIDTH = 7 };
+ * owns it, its multiplier's removed components, whether it is in the middle of corners, which copy of its vertex it
+ * is. */
+enum { WIDTH_MORTAR = 4, WIDTH = 8 };
 
 static int width(int which)
 {
@@ -47,6 +48,7 @@ static PetscErrorCode pack(const Interface *interface, const Side *side, const P
       entry[4] = interface->owner[k];
       entry[5] = interface->removed[k];
       entry[6] = interface->middle[k];
+      entry[7] = interface->copies[k];
     }
     PetscCall(put(packet, width(side->which), entry));
   }
@@ -129,8 +131,8 @@ PetscErrorCode side_unpack(PetscInt n, const PetscInt received[], int which, con
   part->first_mortar               = interface->all[0];
   PetscCall(reserve(part, first, n_nodes));
   if (!which)
-    PetscCall(PetscMalloc5(n_nodes, &part->owner, n_nodes, &part->index, n_nodes, &part->removed, n_nodes, &part->middle, n_nodes,
-                           &part->owned));
+    PetscCall(PetscMalloc6(n_nodes, &part->owner, n_nodes, &part->index, n_nodes, &part->removed, n_nodes, &part->middle, n_nodes,
+                           &part->owned, n_nodes, &part->copies));
   PetscCall(PetscMalloc1(n_facets, &part->facets[which]));
   PetscCall(PetscMalloc1(n_facets + 1, &part->offsets[which]));
   PetscCall(PetscMalloc1(n_corners, &part->facet_nodes[which]));
@@ -146,6 +148,7 @@ PetscErrorCode side_unpack(PetscInt n, const PetscInt received[], int which, con
       part->owner[node]   = received[at + 4];
       part->removed[node] = received[at + 5];
       part->middle[node]  = (PetscBool)received[at + 6];
+      part->copies[node]  = received[at + 7];
     }
     for (left = received[at++]; left > 0; left--, facet++) {
       part->facets[which][facet]      = received[at++];

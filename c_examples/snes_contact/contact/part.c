@@ -158,9 +158,10 @@ static PetscErrorCode create_arrays(Contact *contact, PetscInt number)
   const PetscInt        counts[3] = {part->n1, part->n2, part->n1}, fields[3] = {0, 0, 1 + number};
   const PetscInt        widths[3] = {d, d, part->components};
   const PetscInt *const nodes[3]  = {part->vertices, part->vertices + part->n1, part->vertices};
+  const PetscInt *const copies[3] = {NULL, NULL, part->copies};
 
   PetscFunctionBegin;
-  PetscCall(unknowns_gather_create(contact->physics, 3, counts, nodes, fields, widths, &part->sf));
+  PetscCall(unknowns_gather_create(contact->physics, 3, counts, nodes, copies, fields, widths, &part->sf));
   PetscCall(PetscCalloc5(n, &part->X, n, &part->x, n, &part->gathered, n, &part->forces, n, &part->equations));
   PetscCall(PetscCalloc4(n, &part->lambda, n, &part->lambda_start, n, &part->lambda_last, n, &part->lambda_before));
   PetscCall(PetscCalloc4(n, &part->host, n, &part->rows, n, &part->host_there, n, &part->x_there));

@@ -114,7 +114,7 @@ PetscErrorCode parts_destroy(ContactPart *part)
   PetscCall(PetscSFDestroy(&part->owners));
   PetscCall(PetscSFDestroy(&part->homes));
   PetscCall(PetscFree4(part->vertices, part->nodes, part->piece, part->counts));
-  PetscCall(PetscFree5(part->owner, part->index, part->removed, part->middle, part->owned));
+  PetscCall(PetscFree6(part->owner, part->index, part->removed, part->middle, part->owned, part->copies));
   for (int side = 0; side < 2; side++) {
     PetscCall(PetscFree(part->facets[side]));
     PetscCall(PetscFree(part->offsets[side]));

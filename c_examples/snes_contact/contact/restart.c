@@ -42,7 +42,7 @@ static PetscErrorCode displacements_create(const Contact *contact, PetscInt *n, 
   for (PetscInt k = 0; k < n_all; k++)
     all[k] = k;
   asked = all;
-  PetscCall(unknowns_gather_create(contact->physics, 1, &n_all, &asked, &field, &width, sf));
+  PetscCall(unknowns_gather_create(contact->physics, 1, &n_all, &asked, NULL, &field, &width, sf));
   PetscCall(PetscFree(all));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -84,11 +84,11 @@ static PetscErrorCode archive_multipliers(Contact *contact, PetscInt number, Vec
 {
   const Interface *interface = &contact->interfaces[number];
   const PetscInt   field = 1 + number, width = interface->components, n1 = interface->n1;
-  const PetscInt  *asked = interface->nodes;
+  const PetscInt  *asked = interface->nodes, *copies = interface->copies;
   PetscScalar     *values;
   PetscSF          sf;
   PetscFunctionBegin;
-  PetscCall(unknowns_gather_create(contact->physics, 1, &n1, &asked, &field, &width, &sf));
+  PetscCall(unknowns_gather_create(contact->physics, 1, &n1, &asked, &copies, &field, &width, &sf));
   PetscCall(PetscMalloc1(width * n1, &values));
   PetscCall(contact_fetch(sf, local, values));
   PetscCall(archive_homes(contact, "multipliers", n1, (size_t)width * sizeof(*values), values, archive));

@@ -239,6 +239,7 @@ static PetscErrorCode choose_again(Contact *contact, Interface *interface, Petsc
   PetscCall(PetscMalloc2(interface->n1, &work, interface->n1, &owner));
   PetscCall(work_measure(interface, contact->mesh->rank, work, &depth, &shortest));
   PetscCall(partition_nodes(PETSC_COMM_WORLD, interface->dimension, interface->n1, interface->first[0], interface->X, work, size, owner));
+  PetscCall(creases_join(contact->mesh, interface, owner));
   PetscCall(largest_share(interface, size, interface->owner, work, &now));
   PetscCall(largest_share(interface, size, owner, work, &then));
   *better = (PetscBool)(then < (1 - SAVES) * now);

@@ -57,6 +57,30 @@ static PetscErrorCode store(const double results[], PetscInt n1, ContactStates *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The forces of all parts on each node; copies of a vertex have forces of their own. */
+static PetscErrorCode collect_forces(Interface *interface)
+{
+  const ContactPart *part = &interface->part;
+  const PetscInt     d = part->dimension, n = part->n1 + part->n2, n_home = interface->n1 + interface->n2;
+  PetscScalar       *one, *sums;
+  PetscSF            sf;
+  PetscFunctionBegin;
+  PetscCall(homes_fetch_create(interface, n, part->nodes, &sf));
+  PetscCall(PetscMalloc2(n, &one, n_home, &sums));
+  for (PetscInt i = 0; i < d; i++) { /* of one number a node PETSc knows the sum */
+    for (PetscInt k = 0; k < n; k++)
+      one[k] = part->forces[d * k + i];
+    PetscCall(PetscArrayzero(sums, n_home));
+    PetscCall(PetscSFReduceBegin(sf, MPIU_SCALAR, one, sums, MPIU_SUM));
+    PetscCall(PetscSFReduceEnd(sf, MPIU_SCALAR, one, sums, MPIU_SUM));
+    for (PetscInt k = 0; k < n_home; k++)
+      interface->forces[d * k + i] = sums[k];
+  }
+  PetscCall(PetscFree2(one, sums));
+  PetscCall(PetscSFDestroy(&sf));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode contact_collect(Contact *contact)
 {
   Physics *physics = contact->physics;
@@ -71,9 +95,7 @@ PetscErrorCode contact_collect(Contact *contact)
     PetscCall(store(all, interface->n1, &interface->states));
     PetscCall(PetscFree2(here, all));
     PetscCall(contact_fetch(interface->sf, physics->u_local, interface->displacements));
-    PetscCall(VecZeroEntries(physics->f_sum));
-    PetscCall(contact_scatter(part, part->forces, physics->f_sum, MPIU_SUM));
-    PetscCall(contact_fetch(interface->sf, physics->f_sum, interface->forces));
+    PetscCall(collect_forces(interface));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

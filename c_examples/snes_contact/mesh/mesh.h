@@ -126,6 +126,10 @@ PetscErrorCode numbers_deal(const Mesh *mesh, const PetscMPIInt counts[], const 
 /* shares.c: of a surface of all pieces the faces of this rank's range, and the nodes that are numbered here, as vertices of the mesh: their
  * numbers follow those of the ranks before. The frame of an analytic surface is on rank 0. */
 PetscErrorCode surface_share(const Mesh *mesh, const Surface *surface, Surface *share, PetscInt *n_nodes, PetscInt **nodes);
+/* the nodes numbered anew where vertices have copies: of each corner here, its vertex and which copy of it the face has; of each node which
+ * copy it is */
+PetscErrorCode surface_split(const Mesh *mesh, const PetscInt vertices[], const PetscInt copies[], Surface *share, PetscInt *n_nodes,
+                             PetscInt **nodes, PetscInt **node_copies);
 PetscErrorCode surface_destroy(Surface *surface);
 
 /* plex.c */

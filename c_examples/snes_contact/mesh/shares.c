@@ -89,32 +89,52 @@ static PetscErrorCode unite(PetscSF directory, PetscInt n_here, PetscInt values[
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Of the corners of all faces, one after the other, the first of each vertex makes a node. Their numbers take the place of the
- * vertices. */
-static PetscErrorCode number_nodes(const Mesh *mesh, Surface *share, PetscInt *n_nodes, PetscInt **nodes)
+/* Of the corners of all faces, one after the other, the first of each vertex makes a node, of each copy of a vertex where there are
+ * `copies` (one number a corner, the first one 0). `vertices`: of the corners; their nodes' numbers take the place of share->vertices. */
+PetscErrorCode surface_split(const Mesh *mesh, const PetscInt vertices[], const PetscInt copies[], Surface *share, PetscInt *n_nodes,
+                             PetscInt **nodes, PetscInt **node_copies)
 {
   const PetscInt n = share->offsets[share->n_faces];
-  PetscInt       n_here, before, first, *values;
-  PetscSF        directory;
+  PetscInt       n_here, before, first, most = 0, *values, *some, *asked;
   PetscFunctionBegin;
-  PetscCall(directory_create(mesh, n, share->vertices, &n_here, &directory));
-  PetscCall(PetscMalloc1(n, &values));
+  for (PetscInt k = 0; k < n && copies; k++)
+    most = PetscMax(most, copies[k]);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPIU_INT, MPI_MAX, PETSC_COMM_WORLD));
+  PetscCall(PetscMalloc3(n, &values, n, &some, n, &asked));
   PetscCall(PetscMalloc1(n, nodes));
+  if (node_copies) PetscCall(PetscMalloc1(n, node_copies));
   PetscCall(sum_before(n, &before));
   for (PetscInt k = 0; k < n; k++)
     values[k] = before + k;
-  PetscCall(unite(directory, n_here, values, MPI_MIN, PETSC_MAX_INT));
   *n_nodes = 0;
-  for (PetscInt k = 0; k < n; k++) {
-    if (values[k] == before + k) (*nodes)[(*n_nodes)++] = share->vertices[k];
+  for (int turn = 0; turn < 2; turn++) {
+    for (PetscInt copy = 0; copy <= most; copy++) {
+      PetscInt m = 0;
+      PetscSF  directory;
+      for (PetscInt k = 0; k < n; k++) {
+        if ((copies ? copies[k] : 0) != copy) continue;
+        asked[m]  = vertices[k];
+        some[m++] = values[k];
+      }
+      PetscCall(directory_create(mesh, m, asked, &n_here, &directory));
+      PetscCall(unite(directory, n_here, some, turn ? MPI_MAX : MPI_MIN, turn ? -1 : PETSC_MAX_INT));
+      PetscCall(PetscSFDestroy(&directory));
+      for (PetscInt k = n; k-- > 0;) {
+        if ((copies ? copies[k] : 0) == copy) values[k] = some[--m];
+      }
+    }
+    if (turn) break;
+    for (PetscInt k = 0; k < n; k++) {
+      if (values[k] != before + k) continue;
+      if (node_copies) (*node_copies)[*n_nodes] = copies ? copies[k] : 0;
+      (*nodes)[(*n_nodes)++] = vertices[k];
+    }
+    PetscCall(sum_before(*n_nodes, &first));
+    for (PetscInt k = 0; k < n; k++)
+      values[k] = values[k] == before + k ? first++ : -1;
   }
-  PetscCall(sum_before(*n_nodes, &first));
-  for (PetscInt k = 0; k < n; k++)
-    values[k] = values[k] == before + k ? first++ : -1;
-  PetscCall(unite(directory, n_here, values, MPI_MAX, -1));
   PetscCall(PetscArraycpy(share->vertices, values, n));
-  PetscCall(PetscFree(values));
-  PetscCall(PetscSFDestroy(&directory));
+  PetscCall(PetscFree3(values, some, asked));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -127,7 +147,11 @@ PetscErrorCode surface_share(const Mesh *mesh, const Surface *surface, Surface *
   PetscCall(deal_faces(mesh, surface, share));
   PetscCall(sum_before(share->n_faces, &share->first));
   if (!surface->analytic) {
-    PetscCall(number_nodes(mesh, share, n_nodes, nodes));
+    PetscInt *vertices;
+    PetscCall(PetscMalloc1(share->offsets[share->n_faces], &vertices));
+    PetscCall(PetscArraycpy(vertices, share->vertices, share->offsets[share->n_faces]));
+    PetscCall(surface_split(mesh, vertices, NULL, share, n_nodes, nodes, NULL));
+    PetscCall(PetscFree(vertices));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   *n_nodes = mesh->rank ? 0 : mesh->dimension + 1; /* its frame */

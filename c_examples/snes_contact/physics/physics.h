@@ -80,7 +80,9 @@ typedef struct {
 } Rigid;
 
 /* What a vertex may have beside its displacement. A label of the mesh says which vertices have it. The label's value
- * says which components are no unknowns (bit i: component i). */
+ * says which components are no unknowns (bit i: component i); FIELD_COPY times how many more copies of it the vertex has. */
+enum { FIELD_COPY = 8 };
+
 typedef struct {
   char     name[NAME_LENGTH], label[2 * NAME_LENGTH];
   PetscInt components;
@@ -287,9 +289,8 @@ PetscErrorCode springs_energy(const Physics *physics, const PetscScalar *u, Pets
 
 /* unknowns.c: takes the fields over */
 PetscErrorCode unknowns_create(Physics *physics, PetscInt n_fields, Field *fields);
-PetscErrorCode unknowns_gather_create(Physics *physics, PetscInt n, const PetscInt *n_vertices,
-                                      const PetscInt *const *vertices, const PetscInt *fields, const PetscInt *components,
-                                      PetscSF *sf);
+PetscErrorCode unknowns_gather_create(Physics *physics, PetscInt n, const PetscInt *n_vertices, const PetscInt *const *vertices,
+                                      const PetscInt *const *copies, const PetscInt *fields, const PetscInt *components, PetscSF *sf);
 /* into u_local, prescribed entries filled in */
 PetscErrorCode unknowns_to_local(Physics *physics, Vec x);
 /* into f_sum: what all ranks hold, complete at owned vertices */

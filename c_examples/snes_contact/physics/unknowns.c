@@ -3,14 +3,18 @@
 #include "physics/physics.h"
 
 /* Fields of a vertex, which is a point of the DMPlex, follow each other; `mask` bit i set: component i is prescribed
- * (displacement) or removed (multiplier). Returns -1 where the vertex has no such field. */
-static PetscErrorCode field_mask(Physics *physics, PetscInt point, PetscInt field, PetscInt *mask)
+ * (displacement) or removed (multiplier), -1: the vertex has no such field. `copies`: how many follow each other, all with this mask. */
+static PetscErrorCode field_mask(Physics *physics, PetscInt point, PetscInt field, PetscInt *mask, PetscInt *copies)
 {
   Unknowns   *unknowns = &physics->unknowns;
   const Mesh *mesh     = physics->mesh;
   const char *label    = field ? unknowns->fields[field - 1].label : "prescribed";
   PetscFunctionBegin;
   PetscCall(DMGetLabelValue(mesh->dm, label, point, mask));
+  *copies = 1;
+  if (field == 0 || *mask < 0) PetscFunctionReturn(PETSC_SUCCESS);
+  *copies = 1 + *mask / FIELD_COPY;
+  *mask %= FIELD_COPY;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -25,7 +29,7 @@ static PetscErrorCode create_section(Physics *physics)
   Unknowns      *unknowns = &physics->unknowns;
   const Mesh    *mesh     = physics->mesh;
   const PetscInt n_fields = 1 + unknowns->n_fields;
-  PetscInt       pStart, pEnd, mask;
+  PetscInt       pStart, pEnd, mask, copies;
   PetscSection   section;
 
   PetscFunctionBegin;
@@ -42,12 +46,12 @@ static PetscErrorCode create_section(Physics *physics)
     const PetscInt v = mesh->points[k];
     for (PetscInt f = 0; f < n_fields; f++) {
       const PetscInt components = field_components(physics, f);
-      PetscCall(field_mask(physics, v, f, &mask));
+      PetscCall(field_mask(physics, v, f, &mask, &copies));
       if (mask < 0) continue;
-      PetscCall(PetscSectionAddDof(section, v, components));
-      PetscCall(PetscSectionAddFieldDof(section, v, f, components));
-      for (int i = 0; i < components; i++) {
-        if (!(mask & (1 << i))) continue;
+      PetscCall(PetscSectionAddDof(section, v, copies * components));
+      PetscCall(PetscSectionAddFieldDof(section, v, f, copies * components));
+      for (PetscInt i = 0; i < copies * components; i++) {
+        if (!(mask & (1 << i % components))) continue;
         PetscCall(PetscSectionAddConstraintDof(section, v, 1));
         PetscCall(PetscSectionAddFieldConstraintDof(section, v, f, 1));
       }
@@ -56,23 +60,24 @@ static PetscErrorCode create_section(Physics *physics)
   PetscCall(PetscSectionSetUp(section));
   for (PetscInt k = 0; k < mesh->n_points; k++) {
     const PetscInt v = mesh->points[k];
-    PetscInt      *all, in_field[3], n_all = 0, first = 0;
-    PetscCall(PetscMalloc1(3 * n_fields, &all));
+    PetscInt      *all, *in_field, n_all = 0, first = 0, n_dofs;
+    PetscCall(PetscSectionGetDof(section, v, &n_dofs));
+    PetscCall(PetscMalloc2(n_dofs, &all, n_dofs, &in_field));
     for (PetscInt f = 0; f < n_fields; f++) {
       const PetscInt components = field_components(physics, f);
       PetscInt       n          = 0;
-      PetscCall(field_mask(physics, v, f, &mask));
+      PetscCall(field_mask(physics, v, f, &mask, &copies));
       if (mask < 0) continue;
-      for (int i = 0; i < components; i++) {
-        if (!(mask & (1 << i))) continue;
+      for (PetscInt i = 0; i < copies * components; i++) {
+        if (!(mask & (1 << i % components))) continue;
         in_field[n++] = i;
         all[n_all++]  = first + i;
       }
       if (n) PetscCall(PetscSectionSetFieldConstraintIndices(section, v, f, in_field));
-      first += components;
+      first += copies * components;
     }
     if (n_all) PetscCall(PetscSectionSetConstraintIndices(section, v, all));
-    PetscCall(PetscFree(all));
+    PetscCall(PetscFree2(all, in_field));
   }
   PetscCall(DMSetLocalSection(mesh->dm, section));
   unknowns->section = section;
@@ -85,7 +90,7 @@ static PetscErrorCode register_owners(Physics *physics)
   Unknowns       *unknowns = &physics->unknowns;
   const Mesh     *mesh     = physics->mesh;
   const PetscInt  n_fields = 1 + unknowns->n_fields, width = 1 + n_fields;
-  PetscInt        n_leaves, n_here, n_mine = 0, *mine, *numbers, mask;
+  PetscInt        n_leaves, n_here, n_mine = 0, *mine, *numbers, mask, copies;
   const PetscInt *leaves;
   MPI_Datatype    entry;
   PetscSF         sf, directory;
@@ -107,9 +112,9 @@ static PetscErrorCode register_owners(Physics *physics)
     numbers[n_mine++] = mesh->original[k];
     *e++              = mesh->rank;
     for (PetscInt f = 0; f < n_fields; f++) {
-      PetscCall(field_mask(physics, v, f, &mask));
+      PetscCall(field_mask(physics, v, f, &mask, &copies));
       *e++ = mask < 0 ? -1 : offset;
-      if (mask >= 0) offset += field_components(physics, f);
+      if (mask >= 0) offset += copies * field_components(physics, f);
     }
   }
   PetscCall(directory_create(mesh, n_mine, numbers, &n_here, &directory));
@@ -150,10 +155,10 @@ static PetscErrorCode look_up(const Physics *physics, PetscInt n, const PetscInt
 }
 
 /* Leaves on each rank that asks for any: the first components[b] entries of fields[b] of every vertex in vertices[b], block
- * after block. */
+ * after block. `copies`: which copy of the field each vertex of a block asks for; NULL: the first, of all blocks or of one. */
 PetscErrorCode unknowns_gather_create(Physics *physics, PetscInt n, const PetscInt *n_vertices,
-                                      const PetscInt *const *vertices, const PetscInt *fields, const PetscInt *components,
-                                      PetscSF *sf)
+                                      const PetscInt *const *vertices, const PetscInt *const *copies, const PetscInt *fields,
+                                      const PetscInt *components, PetscSF *sf)
 {
   Unknowns      *unknowns = &physics->unknowns;
   const PetscInt width    = 2 + unknowns->n_fields;
@@ -173,10 +178,12 @@ PetscErrorCode unknowns_gather_create(Physics *physics, PetscInt n, const PetscI
   }
   PetscCall(look_up(physics, n_asked, asked, entries));
   for (PetscInt b = 0, leaf = 0, k = 0; b < n; b++) {
+    const PetscInt width_of_copy = field_components(physics, fields[b]);
     for (PetscInt v = 0; v < n_vertices[b]; v++, k++) {
+      const PetscInt copy = copies && copies[b] ? copies[b][v] : 0;
       for (int i = 0; i < components[b]; i++, leaf++) {
         remote[leaf].rank  = entries[width * k];
-        remote[leaf].index = entries[width * k + 1 + fields[b]] + i;
+        remote[leaf].index = entries[width * k + 1 + fields[b]] + copy * width_of_copy + i;
       }
     }
   }

@@ -7,7 +7,7 @@
 //! Copies that both stick are six conditions on three displacements, and a surface that sticks on both sides of a
 //! crease has a singular tangent: the copies of a split node are to act without friction.
 
-use super::surface::Surface;
+use super::surface::{NO_EQUATION, Surface};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::memory::{self, Store, Stored};
@@ -96,6 +96,20 @@ impl Surface {
         }
         Ok(Split { facet_nodes, originals })
     }
+}
+
+/// Pairs of nodes that have displacement equations in common, both ways round.
+pub fn copies(surface: &Surface) -> Result<Vec<[usize; 2]>> {
+    let equation = |a: usize| surface.equations[a].iter().copied().find(|&e| e != NO_EQUATION);
+    let mut numbered = (0..surface.len()).filter_map(|a| equation(a).map(|e| (e, a))).stored()?;
+    memory::sort(&mut numbered)?;
+    let mut pairs = Vec::new();
+    for of_node in numbered.chunk_by(|p, q| p.0 == q.0) {
+        for &(_, a) in of_node {
+            pairs.store_all(of_node.iter().filter(|(_, b)| *b != a).map(|&(_, b)| [a, b]))?;
+        }
+    }
+    Ok(pairs)
 }
 
 /// The fans of a node's corners, each by the corners' places, the one with the first facet first.

@@ -1,6 +1,7 @@
 //! What an interface is: its surfaces, its options, its equations, and what its host says of the nodes. The same for all
 //! positions and all steps.
 
+use super::crease;
 use super::effects::Effects;
 use super::frame::check_frame;
 use super::node_data::NodeData;
@@ -34,6 +35,8 @@ pub struct Setup<const N: usize> {
     /// Where points decide or weights are frozen, per node what its own size is to be multiplied by so that it is that of the facets
     /// around it, however many these are.
     pub size_factors: Vec<f64>,
+    /// Pairs of non-mortar nodes with the same displacement equations: copies on a crease.
+    pub copies: Vec<[usize; 2]>,
 }
 
 impl<const N: usize> Setup<N> {
@@ -80,7 +83,8 @@ impl<const N: usize> Setup<N> {
         }
         let wanted = options.decides_at_points() || options.weights != Weights::Current;
         let size_factors = if wanted { size_factors(&nonmortar, options.space)? } else { Vec::new() };
-        Ok(Setup { options, effects, nonmortar, mortar, multiplier_equations, nodes, own: None, size_factors })
+        let copies = crease::copies(&nonmortar)?;
+        Ok(Setup { options, effects, nonmortar, mortar, multiplier_equations, nodes, own: None, size_factors, copies })
     }
 
     /// The non-mortar and the mortar surface.

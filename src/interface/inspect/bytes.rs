@@ -91,6 +91,7 @@ pub fn of_setup<const N: usize>(setup: &Setup<N>) -> usize {
     surfaces
         + overrides
         + heap(&setup.size_factors)
+        + heap(&setup.copies)
         + heap(&setup.multiplier_equations)
         + heap(&nodes.mu)
         + heap(&nodes.free)

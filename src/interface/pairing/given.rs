@@ -82,6 +82,11 @@ impl<'a, const N: usize> Given<'a, N> {
         self.setup.nonmortar.len()
     }
 
+    /// Whether a node acts without friction in this step, since a copy of it may be in contact, too.
+    pub fn has_copy_in_contact(self, a: usize) -> bool {
+        self.step.pairing.frictionless.get(a).is_some_and(|f| *f)
+    }
+
     /// nu_A: that of now where it follows the motion, else the host's or the committed one; normalised within the free
     /// directions.
     pub fn normal(self, a: usize) -> Result<Vec3> {

@@ -3,6 +3,7 @@
 pub mod analytic;
 pub mod boxes;
 pub mod candidates;
+pub mod corners;
 pub mod depth;
 pub mod ends;
 pub mod filter;

@@ -4,6 +4,7 @@
 use super::analytic;
 use super::boxes::Aabb;
 use super::candidates::KeptTree;
+use super::corners;
 use super::depth;
 use super::filter::{FacetFilter, Filter, Side};
 use super::hybrid;
@@ -30,6 +31,8 @@ pub struct Pairing {
     pub carriers: Vec<Vec<Carrier>>,
     /// Per non-mortar node, whether it keeps nu(t_n) although the others follow the motion; empty where none does.
     pub keeps_normal: Vec<bool>,
+    /// Per non-mortar node, whether a copy of it keeps it from having friction; empty where that is so nowhere.
+    pub frictionless: Vec<bool>,
 }
 
 /// Near a knife's edge the sum s of the corner normals has next to no length, and Dnu grows like 1 / |s|. A node where |s|
@@ -46,7 +49,8 @@ impl Pairing {
         let coverable = reach::coverable(&setup.nonmortar, filter.as_ref().filter(|_| !follows), pairs)?;
         let carriers = carriers(setup, history, &coverable)?;
         let keeps_normal = if follows { on_knife_edges(&setup.nonmortar, &history.x1)? } else { Vec::new() };
-        Ok(Pairing { filter, coverable, carriers, keeps_normal })
+        let frictionless = corners::without_friction(setup, history, &coverable)?;
+        Ok(Pairing { filter, coverable, carriers, keeps_normal, frictionless })
     }
 
     /// That of a history which is not of now; its positions may be refused.

@@ -21,7 +21,8 @@ pub fn kept_overlap<const N: usize>(given: Given<N>, normal: &Vec3, sums: &NodeS
 pub fn node<const N: usize>(given: Given<N>, a: usize, lambda: SVector<f64, N>, sums: &NodeSums) -> Result<Node<N>> {
     let (options, nodes, least) = (&given.setup.options, &given.setup.nodes, given.least_coverage(a));
     let covered_before = sums.coverage_previous > least;
-    let frictionless = !covered_before && options.new_contact == NewContact::Frictionless;
+    let is_new = !covered_before && options.new_contact == NewContact::Frictionless;
+    let frictionless = is_new || given.has_copy_in_contact(a);
     let normal = given.normal(a)?;
     let overlap = kept_overlap(given, &normal, sums);
     Ok(Node {

@@ -102,7 +102,7 @@ pub fn special<const N: usize>(
         At::Trial => (trial.sigma_n, trial.sigma_n >= 0.0),
         At::Multiplier => (trial.lambda_n.min(0.0), false),
     };
-    if !node.covered || open || is_new(given, node) {
+    if !node.covered || open || is_new(given, node) || given.has_copy_in_contact(a) {
         return Ok(Special::Told(Told::nothing()));
     }
     let history = given.history();

@@ -1,0 +1,51 @@
+/* Nodes that are hardly covered, where the scene does not say what becomes of them (`weak_coverage`): their multiplier is a point load
+ * without bound at the end of a sliver, and Newton's method loses its way. Their neighbours carry them. With dual multipliers the
+ * library does so by itself; with standard ones it cannot, for handles that share sums do not know each other's neighbours. */
+#include "contact/contact.h"
+
+/* Nodes covered less than this times their best covered neighbour are carried: the library's number for dual multipliers. A block that
+ * hangs over an edge by less and less of a facet had 1.5 times the pressure at 0.18 of its last node, 3 times at 0.02, 60 at 1e-8. */
+static const PetscReal WEAK_COVERAGE = 0.2;
+/* Covered up to this counts as wholly covered: rounding, and the rule's error on facets that are no parallelograms. */
+static const PetscReal WHOLE = 0.99;
+
+/* What nobody can be carried with (docs/plug_in.md). */
+static PetscBool goes_with(const Interface *interface)
+{
+  const stickslip_options *options = &interface->options;
+  if (decision_is_points(interface) || interface->surface[1]->analytic || options->friction == STICKSLIP_FRICTION_TIED) return PETSC_FALSE;
+  return (PetscBool)!(interface->offsets.any && options->normals == STICKSLIP_NORMALS_CURRENT);
+}
+
+/* Is any node covered in part at the start? */
+static PetscErrorCode hangs_over(const ContactPart *part, PetscBool *any)
+{
+  stickslip_states wanted = {.struct_size = sizeof(wanted)};
+  double          *coverage, *area;
+  PetscFunctionBegin;
+  *any = PETSC_FALSE;
+  PetscCall(PetscMalloc2(part->n1, &coverage, part->n1, &area));
+  wanted.coverage = coverage;
+  wanted.area     = area;
+  if (part->handle) PetscCallStickslip(stickslip_interface_states(part->handle, STATE_OF(part), NULL, &wanted));
+  for (PetscInt a = 0; a < part->n1 && part->handle; a++) {
+    if (part->owned[a] != STICKSLIP_NODE_OWN || part->removed[a] == 7) continue;
+    *any = (PetscBool)(*any || (coverage[a] > 0 && coverage[a] < WHOLE * area[a]));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, any, 1, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
+  PetscCall(PetscFree2(coverage, area));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode weak_choose(Interface *interface, PetscBool created, PetscBool *chosen)
+{
+  stickslip_options *options = &interface->options;
+  const PetscBool    plane   = (PetscBool)(interface->dimension == 2);
+  PetscFunctionBegin;
+  *chosen = PETSC_FALSE;
+  if (options->weak_coverage != 0 || options->multiplier_basis == STICKSLIP_BASIS_DUAL || !goes_with(interface)) PetscFunctionReturn(PETSC_SUCCESS);
+  *chosen = plane;
+  if (created && !plane) PetscCall(hangs_over(&interface->part, chosen)); /* in space carrying costs: parts need many rings of facets */
+  if (*chosen) options->weak_coverage = WEAK_COVERAGE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
