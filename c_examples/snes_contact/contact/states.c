@@ -146,7 +146,7 @@ PetscErrorCode contact_tendencies(Contact *contact, int32_t *state, double *tang
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The augmentation of an interface's nodes that are marked at home, times `factor`. */
+/* The augmentation of an interface's nodes that are marked at home (NULL: of all), times `factor`. */
 static PetscErrorCode scale_augmentation(const Interface *interface, const PetscBool marked[], PetscReal factor)
 {
   const ContactPart *part   = &interface->part;
@@ -155,7 +155,7 @@ static PetscErrorCode scale_augmentation(const Interface *interface, const Petsc
   PetscFunctionBegin;
   PetscCall(PetscMalloc3(part->n1, &r, part->n1, &here, interface->n1, &all));
   for (PetscInt a = 0; a < interface->n1; a++)
-    all[a] = marked[a] ? factor : 1;
+    all[a] = !marked || marked[a] ? factor : 1;
   PetscCall(parts_send(part, 1, all, here));
   wanted.augmentation = r;
   if (part->handle) PetscCallStickslip(stickslip_interface_states(part->handle, STATE_OF(part), NULL, &wanted));

@@ -14,6 +14,12 @@ enum { CHANGES = 3 };
 /* Iterations in a row at which all is well but that contact forces hide a residual, or that a part does not balance as a whole: Newton's
  * method has ended at its rounding. */
 enum { UNSOUND = 3 };
+/* An attempt that has thrown the bodies about goes on while in so many iterations the residual has come below its least before by this
+ * part of it. */
+enum { SPAN = 8 };
+static const PetscReal NEARER = 0.01;
+/* A residual that grows by this has thrown the bodies about. */
+static const PetscReal THROWN = 100;
 
 /* rank 0: a cycle for the report, and as a sentence */
 static PetscErrorCode report_cycle(Solve *solve, PetscInt period, PetscInt iteration)
@@ -29,6 +35,32 @@ static PetscErrorCode report_cycle(Solve *solve, PetscInt period, PetscInt itera
                           "the states of nodes repeat every %" PetscInt_FMT " iterations:%s", period, nodes));
   if (!newton->cycles) newton->cycles = cJSON_CreateArray();
   cJSON_AddItemToArray(newton->cycles, json);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool convergence_throws(PetscReal first, PetscReal norm)
+{
+  return (PetscBool)(norm >= THROWN * first);
+}
+
+/* Has the attempt thrown the bodies about, and does not come back? */
+static PetscErrorCode is_lost(SNES snes, PetscBool *lost)
+{
+  PetscReal *norms, before, least = PETSC_MAX_REAL, largest = 0;
+  PetscInt   n;
+  PetscFunctionBegin;
+  *lost = PETSC_FALSE;
+  PetscCall(SNESGetConvergenceHistory(snes, &norms, NULL, &n));
+  if (n < SPAN + 2) PetscFunctionReturn(PETSC_SUCCESS);
+  before = norms[1]; /* without the start, where loads have not moved anything */
+  for (PetscInt j = 1; j < n; j++) {
+    largest = PetscMax(largest, norms[j]);
+    if (j < n - SPAN)
+      before = PetscMin(before, norms[j]);
+    else
+      least = PetscMin(least, norms[j]);
+  }
+  *lost = (PetscBool)(convergence_throws(norms[0], largest) && least >= (1 - NEARER) * before);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -55,6 +87,15 @@ static PetscErrorCode watch(Solve *solve, PetscInt iteration, PetscReal norm, SN
   PetscCall(cycling_restart(solve));
   newton->n_changes++;
   newton->changed = newton->stale = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The start of an attempt with another augmentation, which the library has taken. */
+static PetscErrorCode soften(Solve *solve)
+{
+  PetscFunctionBegin;
+  PetscCall(contact_scale_augmentation(solve->contact, NULL, solve->newton.soft));
+  solve->newton.changed = solve->newton.stale = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -144,5 +185,11 @@ PetscErrorCode convergence_test(SNES snes, PetscInt iteration, PetscReal xnorm, 
     PetscCall(judge(snes, solve, fnorm, reason));
   }
   if (!*reason) PetscCall(watch(solve, iteration, fnorm, reason));
+  if (!*reason && iteration == 0 && solve->newton.soft != 1) PetscCall(soften(solve));
+  if (!*reason && solve->newton.gives_up) {
+    PetscBool lost;
+    PetscCall(is_lost(snes, &lost));
+    if (lost) *reason = SNES_DIVERGED_MAX_IT;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

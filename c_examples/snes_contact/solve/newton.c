@@ -5,7 +5,11 @@
  * augmentation is large (slip that turns round; block scenes at 1e2 times its default and more) or small
  * (klarbring.yaml). The answer does not depend on it, so where cycling.c finds a cycle, the augmentation of the
  * nodes that cycle is changed, a few times at most in one attempt:
- *   1. full steps; a cycle divides the augmentation by 100;
+ *   1. full steps; a cycle divides the augmentation by 100. Where nothing but what is open makes a difference there may be as many as
+ *      that can take, for thin bodies open node by node, and in a shorter step in time as many nodes do;
+ *      if they have thrown the bodies about, damped ones with a hundredth of the augmentation of all nodes. The default one is that of
+ *      a solid body: where a thin one is curved, gaps of second order in a step of Newton's method open all of its nodes. A step after
+ *      one that was solved so begins so;
  *   2. if normals follow the motion, the same in two phases: with the normals of the start of the step, and from there with
  *      the current ones. Deep contact over facets that turn much needs it;
  *   3. if the start was extrapolated, as 1 from the start that is not (first_iterate.c);
@@ -35,13 +39,20 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { FULL = 0, SETTLING = 1, PLAIN = 2, BACKTRACKING = 3, LARGER = 4, CLOSING = 5, STICKING = 6, N_ATTEMPTS = 7 };
+enum { FULL = 0, SOFTER = 1, SETTLING = 2, PLAIN = 3, BACKTRACKING = 4, LARGER = 5, CLOSING = 6, STICKING = 7, N_ATTEMPTS = 8 };
+/* Of the augmentation of all nodes in one attempt: what the default is too large by for facets three times as long as the body is thick,
+ * which bend like the third power of that. */
+static const PetscReal SOFT = 0.01;
 /* Iterations of the closing attempt: each closes a gap by part of a facet. Other attempts: -snes_max_it. */
 enum { CLOSING_ITERATIONS = 60 };
+/* Iterations of full steps, for each node of the contact, where bodies are linear and nothing rubs: no set of states comes twice then, or
+ * it is a cycle, and as a rule a node changes its mind no more often. */
+enum { ITERATIONS_A_NODE = 2 };
 static const struct {
   SNESLineSearchType line_search;
   PetscReal          factor; /* of the augmentation of nodes that cycle */
 } ATTEMPTS[N_ATTEMPTS] = {[FULL]         = {SNESLINESEARCHNONE, 0.01},
+                         [SOFTER]       = {SNESLINESEARCHBT, 0.01},
                          [SETTLING]     = {SNESLINESEARCHNONE, 0.01},
                          [PLAIN]        = {SNESLINESEARCHNONE, 0.01},
                          [BACKTRACKING] = {SNESLINESEARCHBT, 0.01},
@@ -178,11 +189,36 @@ static PetscErrorCode solve_from(Solve *solve, Vec x, SNESConvergedReason *reaso
     PetscCall(SNESGetConvergenceHistory(solve->snes, &norms, NULL, &n));
     for (PetscInt j = 1; j < n; j++) {
       if (norms[j] >= norms[j - 1]) newton->monotone = PETSC_FALSE;
+      if (convergence_throws(norms[0], norms[j])) newton->threw = PETSC_TRUE;
     }
     newton->iterations += iterations;
     again = PETSC_FALSE;
     if (*reason == SNES_DIVERGED_LINEAR_SOLVE) PetscCall(solver_give_room(solve, &again));
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Is which nodes are open all that makes the model nonlinear? */
+static PetscBool only_opens(const Solve *solve)
+{
+  const Contact *contact = solve->contact;
+  for (PetscInt b = 0; b < solve->mesh->n_bodies; b++) {
+    if (solve->physics->materials[b].law->finite) return PETSC_FALSE;
+  }
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    if (contact->interfaces[i].options.friction != STICKSLIP_FRICTION_NONE) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
+/* of all interfaces and ranks */
+static PetscErrorCode count_nodes(const Contact *contact, PetscInt *n)
+{
+  PetscFunctionBegin;
+  *n = 0;
+  for (PetscInt i = 0; i < contact->n_interfaces; i++)
+    *n += contact->interfaces[i].n1;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, n, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -194,15 +230,20 @@ static PetscErrorCode attempt(Solve *solve, int k, const Past *past, Vec x, Pets
   SNESConvergedReason reason = SNES_CONVERGED_ITS;
   SNESLineSearch      line_search;
   PetscReal           atol, rtol, stol;
-  PetscInt            max_it, max_f;
-  PetscBool           thrown = PETSC_FALSE;
+  PetscInt            max_it, max_f, n_nodes;
+  PetscBool           thrown = PETSC_FALSE, opens;
 
   PetscFunctionBegin;
   PetscCall(SNESGetLineSearch(solve->snes, &line_search));
   if (!newton->fixed_line_search) PetscCall(SNESLineSearchSetType(line_search, ATTEMPTS[k].line_search));
   PetscCall(SNESGetTolerances(solve->snes, &atol, &rtol, &stol, &max_it, &max_f));
-  if (k == CLOSING && !newton->fixed_max_it)
-    PetscCall(SNESSetTolerances(solve->snes, atol, rtol, stol, CLOSING_ITERATIONS, max_f));
+  opens            = (PetscBool)(k == FULL && only_opens(solve));
+  newton->gives_up = (PetscBool)(k == FULL && !opens);
+  newton->soft     = k == SOFTER ? SOFT : 1;
+  if (opens) PetscCall(count_nodes(contact, &n_nodes));
+  if (!newton->fixed_max_it && (k == CLOSING || opens))
+    PetscCall(SNESSetTolerances(solve->snes, atol, rtol, stol,
+                                opens ? PetscMax(max_it, ITERATIONS_A_NODE * n_nodes) : CLOSING_ITERATIONS, max_f));
   closing_begin(solve, (PetscBool)(k == CLOSING));
   newton->drowned   = -1;
   newton->n_unsound = 0;
@@ -240,6 +281,12 @@ static PetscErrorCode attempt(Solve *solve, int k, const Past *past, Vec x, Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The attempt that comes as number i, where `first` comes first. */
+static int order(int first, int i)
+{
+  return i > first ? i : i ? i - 1 : first;
+}
+
 PetscErrorCode newton_solve(Solve *solve, const Past *past, Vec x, PetscBool *converged)
 {
   Newton         *newton       = &solve->newton;
@@ -251,13 +298,16 @@ PetscErrorCode newton_solve(Solve *solve, const Past *past, Vec x, PetscBool *co
   PetscFunctionBegin;
   newton->iterations = 0;
   newton->cycle[0]   = 0;
+  newton->threw      = PETSC_FALSE;
   PetscCall(progress_begin(solve));
   *converged         = PETSC_FALSE;
   closing_begin(solve, PETSC_FALSE);
   PetscCall(first_iterate(solve, past, extrapolates, x));
   PetscCall(closing_needed(solve, x, &closing_first));
+  if (newton->begins_soft) closing_first = PETSC_FALSE; /* with the augmentation of that attempt it may well not be loose */
   for (int i = 0; i < N_ATTEMPTS && !*converged; i++) {
-    const int k = !closing_first || i > CLOSING ? i : i ? i - 1 : CLOSING;
+    const int k = order(closing_first ? CLOSING : newton->begins_soft ? SOFTER : FULL, i);
+    if (k == SOFTER && !(newton->begins_soft || newton->threw || solve->contact->refusal[0])) continue;
     if (k == SETTLING && !normals_follow(solve->contact)) continue;
     if (k == PLAIN && !extrapolates) continue;
     if (k == BACKTRACKING && newton->fixed_line_search) continue;
@@ -268,6 +318,7 @@ PetscErrorCode newton_solve(Solve *solve, const Past *past, Vec x, PetscBool *co
     if (!at_start) PetscCall(first_iterate(solve, past, (PetscBool)(extrapolates && k != PLAIN), x));
     at_start = PETSC_FALSE;
     PetscCall(attempt(solve, k, past, x, converged));
+    if (*converged) newton->begins_soft = (PetscBool)(k == SOFTER);
     if (!*converged || closing_first || k == CLOSING) continue;
     PetscCall(closing_needed(solve, x, &loose));
     if (!loose) continue;

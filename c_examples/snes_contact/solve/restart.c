@@ -117,6 +117,7 @@ PetscErrorCode solve_archive(Solve *solve, Past *past, StepSize *size, Archive *
   PetscCall(archive_finding("held.told", "held.by_nothing", &solve->held.by_nothing, archive));
   PetscCall(archive_finding("held.drift_told", "held.by_springs", &solve->held.by_springs, archive));
   PetscCall(archive_reals(archive, "least_pivot", 1, &solve->least_pivot));
+  PetscCall(archive_bools(archive, "begins_soft", 1, &solve->newton.begins_soft));
   for (int k = 0; k < 4; k++)
     PetscCall(archive_ints(archive, "linear", 1, counts[k]));
   PetscCall(solver_archive_room(solve, archive));

@@ -39,7 +39,11 @@ typedef struct Cycling Cycling;
 typedef struct {
   PetscBool     fixed_line_search, fixed_max_it; /* the user chose them */
   PetscReal     factor;            /* for the augmentation of nodes that cycle */
+  PetscReal     soft;              /* what this attempt begins with, over the scene's augmentation */
   PetscInt      n_changes;         /* of the augmentation in this attempt */
+  PetscBool     gives_up;          /* this attempt, when it has thrown the bodies about and does not come back */
+  PetscBool     begins_soft;       /* the last step converged in the attempt with the softer augmentation */
+  PetscBool     threw;             /* an attempt at this step has thrown the bodies about */
   PetscBool     changed, stale;    /* it is not the scene's; the residual belongs to another one */
   PetscBool     refused_commit;    /* the step converged, and does not count: the library refused its commit, or it slid too far */
   PetscReal     slid;              /* how far frozen weights have slid in the converged step, over what is allowed */
@@ -174,6 +178,8 @@ void           iterative_choose(Solve *solve, PetscInt n_unknowns);
 PetscErrorCode iterative_set(Solve *solve, KSP ksp);
 
 /* convergence.c: SNES' convergence test */
+/* Has a residual that was `first` thrown the bodies about? */
+PetscBool      convergence_throws(PetscReal first, PetscReal norm);
 PetscErrorCode convergence_test(SNES snes, PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm,
                                 SNESConvergedReason *reason, void *solve);
 
