@@ -6,7 +6,7 @@ use super::data::active::Active;
 use super::data::extent::{Extent, Scope};
 use super::data::history::History;
 use super::data::node_data::check_length;
-use super::data::options::Weights;
+use super::data::options::{Scheme, Weights};
 use super::data::pairs::{PairRecord, ParentRecord, Weighted};
 use super::data::points::Points;
 use super::data::setup::Setup;
@@ -20,6 +20,7 @@ use super::stages::carried::refuse_sums;
 use super::stages::commit;
 use super::stages::normals::follow;
 use super::stages::respond::{Responses, respond};
+use super::stages::shares::refuse_hybrid;
 use super::stages::sums::{self, NodeSums};
 use crate::error::Result;
 use crate::geometry::Vec3;
@@ -281,6 +282,13 @@ impl<const N: usize> Cache<N> {
                 check_length("sums", sums.len(), nodes)?;
                 refuse_sums(&setup.options)?;
                 self.integrate(setup, step, x, extent)?;
+                if matches!(setup.options.scheme, Scheme::Hybrid(_)) {
+                    let given = Given { setup, step };
+                    self.find_sums(given, x, extent)?;
+                    let history = given.history().weighted(setup.surfaces());
+                    let pairs = [self.weighted(setup.surfaces(), given.history()), history];
+                    refuse_hybrid(given, pairs, &self.kept.sums, sums)?;
+                }
                 self.answers.are_known = false;
                 memory::recopy(&mut self.answers.sums, sums)?;
             }

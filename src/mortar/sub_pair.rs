@@ -221,7 +221,15 @@ impl Kernel for Integrate<'_> {
         let shapes = [frame.projection.shape, segment.mortar.shape];
         let zero = L::splat(0.0);
         let mut moments = [[[zero; TERMS]; MAX_CORNERS]; 2];
-        let mut sums: [Sums<L>; 2] = [[[[[zero; 2]; PAIR_CORNERS]; GROUPS]; MAX_CORNERS]; 2];
+        // 12 kB, begun only where somebody asks.
+        let mut room: [Sums<L>; 2];
+        let mut sums = match derivatives.is_some() {
+            true => {
+                room = [[[[[zero; 2]; PAIR_CORNERS]; GROUPS]; MAX_CORNERS]; 2];
+                Some(&mut room)
+            }
+            false => None,
+        };
         let mut points = Points::<L>::new((frame, segment, rule), derivatives.is_some());
         while let Some(four) = points.next() {
             if four.edge.is_none() {
@@ -232,10 +240,8 @@ impl Kernel for Integrate<'_> {
                 let (one, two) = (&four.one, &four.two);
                 fields[0].add_moments([one[0], one[1]], &n[..rows], &mut moments[0]);
                 fields[1].add_moments([two[0], two[1]], &n[..rows], &mut moments[1]);
-                if derivatives.is_none() {
-                    continue;
-                }
             }
+            let Some(sums) = sums.as_deref_mut() else { continue };
             let (weight, at) = (four.weight.store(), [stored(&four.one), stored(&four.two)]);
             for q in 0..rolled(4) {
                 let w = weight[q];
@@ -272,7 +278,7 @@ impl Kernel for Integrate<'_> {
                 }
             }
         }
-        if let Some(derivatives) = derivatives {
+        if let (Some(derivatives), Some(sums)) = (derivatives, &sums) {
             let chain = Chain::new(frame, segment);
             for (sums, to) in sums.iter().zip([&mut derivatives.ab, &mut derivatives.ac]) {
                 for (a, g) in (0..rows).flat_map(|a| (0..GROUPS).map(move |g| (a, g))) {

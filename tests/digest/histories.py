@@ -1,6 +1,8 @@
 """Seeded histories: two small meshes, or a mesh and an analytic surface, with any options, moved for a few steps. What a
-library gives for them on the way, in digests."""
+library gives for them on the way, in digests. Meshes are of linear facets, of some or only quadratic ones, or of lines; multipliers
+standard or dual; nodes or points decide; friction by any law."""
 
+import ctypes
 import functools
 import hashlib
 import sys
@@ -9,10 +11,16 @@ from pathlib import Path
 import numpy as np
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "stability"))
-from library import Interface, Library, Refused  # noqa: E402  (needs the path)
+from library import Interface, Law, Library, Refused  # noqa: E402  (needs the path)
 
 RIGID, ANALYTIC = 1, 2  # STICKSLIP_MORTAR_RIGID, STICKSLIP_MORTAR_ANALYTIC
-FRICTIONLESS = 1  # STICKSLIP_FRICTION_NONE
+COULOMB, FRICTIONLESS, TRESCA = 0, 1, 4  # STICKSLIP_FRICTION_...
+DUAL, CURRENT, POINTS = 1, 0, 1  # STICKSLIP_BASIS_DUAL, STICKSLIP_WEIGHTS_CURRENT, STICKSLIP_DECISION_POINTS
+NONE = -1.0  # STICKSLIP_WEAK_COVERAGE_NONE
+# What a mesh is of, as often as it stands here. "mixed": some facets are quadratic.
+KINDS = ("linear", "linear", "linear", "quadratic", "mixed", "lines")
+# STICKSLIP_LAW_...: cohesion, weakening, orthotropic.
+LAWS = ({"kind": 1, "cohesion": 0.5}, {"kind": 2, "mu_after": 0.1, "critical_slip": 0.05}, {"kind": 3, "mu_across": 0.1})
 
 
 def digest(*arrays):
@@ -50,21 +58,64 @@ def mesh(random, down, curved):
     return x, [facet[::-1] for facet in facets] if down else facets
 
 
-def frame(shape, random):
-    """p0, the axis, and two across it: a plane at 0 that faces up, a ball or a roller below."""
+def quadratic(random, x, facets, part):
+    """The mesh with some of its facets made quadratic, their mid nodes a little off."""
+    x, made, middle = list(x), [], {}
+
+    def between(nodes):
+        key = tuple(sorted(nodes))
+        if key not in middle:
+            middle[key] = len(x)
+            x.append(np.mean([x[node] for node in nodes], axis=0) + 0.01 * random.uniform(-1, 1, 3))
+        return middle[key]
+
+    for facet in facets:
+        if random.random() < part:
+            mids = [between(pair) for pair in zip(facet, np.roll(facet, -1))]
+            centre = [between(facet)] if len(facet) == 4 and random.random() < 0.5 else []
+            facet = [*facet, *mids, *centre]
+        made.append(facet)
+    return np.array(x), made
+
+
+def chain(random, down, curved):
+    """One to four lines of two or three nodes, at r > 0; the body above or below them."""
+    n, three = int(random.integers(1, 5)), random.random() < 0.4
+    u = random.uniform(0.5, 0.9) + random.uniform(0.5, 1.5) * np.arange(n + 1) / n
+    x = np.stack([u, curved * (u - 1.0) ** 2], axis=1)
+    x[:, 1] += 0.03 * random.integers(0, 2) * random.uniform(-1, 1, n + 1)
+    lines = [[a, a + 1] for a in range(n)]
+    if three:
+        x = np.vstack([x, (x[1:] + x[:-1]) / 2 + 0.01 * random.uniform(-1, 1, (n, 2))])
+        lines = [[*line, n + 1 + a] for a, line in enumerate(lines)]
+    return x, lines if down else [[line[1], line[0], *line[2:]] for line in lines]
+
+
+def side(random, kind, down, curved):
+    if kind == "lines":
+        return chain(random, down, curved)
+    x, facets = mesh(random, down, curved)
+    return (x, facets) if kind == "linear" else quadratic(random, x, facets, 1.0 if kind == "quadratic" else 0.3)
+
+
+def frame(shape, random, kind):
+    """p0, the axis, and two across it: a plane at 0 that faces up, a ball or a roller below; of lines a point less."""
+    if kind == "lines":
+        p = np.array([1.0, 0.0 if shape == 0 else -1.0])
+        return np.vstack([p, p + [[0, 1], [1, 0]]])
     p = np.array([0.3, 0.2, 0.0 if shape == 0 else -1.0])
     rows = np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]]) if shape == 0 else np.array([[0, 1, 0], [0, 0, 1], [1, 0, 0]])
     return np.vstack([p, p + rows])
 
 
-def choose(random):
-    """Options: any of them."""
+def choose(random, kind):
+    """Options: any of them, but for most of those that are refused."""
     pick = lambda *values: values[random.integers(len(values))]
     options = {
         "form": pick(0, 0, 1),
         "slip": pick(0, 0, 1, 2),
         "weights": pick(0, 0, 0, 1, 2),
-        "friction": pick(0, 0, 0, 1, 2, 3),
+        "friction": pick(0, 0, 0, 1, 2, 3, TRESCA),
         "mortar_side": pick(0, 0, 0, 1, 2),
         "quadrature": pick(0, 0, 1, 2, 3, 4, 5),
         "row_scale": pick(0, 1),
@@ -84,6 +135,22 @@ def choose(random):
         options["mu"] = 0.0
     # Normals of now go with weights of now.
     options["normals"] = pick(0, 0, 1) if options["weights"] == 0 else 0
+    options["basis"] = pick(0, 0, DUAL)
+    if kind != "linear":
+        options["multiplier_space"] = 0 if options["basis"] == DUAL else pick(0, 1)
+        options["form"] = options["normals"] = options["integration"] = 0
+    if kind == "lines":
+        options |= {"model": pick(1, 2), "tangent": pick(0, 0, 2)}
+        options["thickness"] = 0.7 if options["model"] == 1 else 0.0
+    elif random.random() < 0.1 and kind == "linear" and options["mortar_side"] != ANALYTIC:
+        options |= {"decision": POINTS, "basis": DUAL, "form": 0, "normals": 0, "integration": 0, "weak_coverage": NONE}
+        options["friction"] = pick(COULOMB, FRICTIONLESS)
+        if options["friction"] == COULOMB:
+            options |= {"mu": pick(0.2, 0.5), "weights": pick(1, 2), "slip": pick(0, 1)}
+        else:
+            options["mu"] = 0.0
+    if options["friction"] == TRESCA:
+        options["shear_limit"] = 2.0
     if options["integration"]:
         options["element_points"] = pick(0, 3, 5)
     if options["mortar_side"] == ANALYTIC:
@@ -95,15 +162,16 @@ def choose(random):
 def play(library, seed):
     """(name, arrays) of all that is computed on the way; a refusal ends what it is part of."""
     random = np.random.default_rng([seed, 20260])
-    options = choose(random)
-    components = 1 if options["friction"] == FRICTIONLESS else 3
-    x1, facets1 = mesh(random, down=True, curved=random.choice([0.0, 0.2]))
+    kind = KINDS[random.integers(len(KINDS))]
+    options, up = choose(random, kind), 1 if kind == "lines" else 2
+    components = 1 if options["friction"] == FRICTIONLESS else 1 + up
+    x1, facets1 = side(random, kind, down=True, curved=random.choice([0.0, 0.2]))
     if options["mortar_side"] == ANALYTIC:
-        x2, facets2 = frame(options["shape"], random), None
+        x2, facets2 = frame(options["shape"], random, kind), None
     else:
-        x2, facets2 = mesh(random, down=False, curved=random.choice([0.0, -0.2]))
-    x1[:, 2] += random.choice([0.0, 0.0, 0.02, -0.02, 1.5])
-    move = random.normal(size=(3, 3)) * [0.08, 0.08, 0.02]
+        x2, facets2 = side(random, kind, down=False, curved=random.choice([0.0, -0.2]))
+    x1[:, up] += random.choice([0.0, 0.0, 0.02, -0.02, 1.5])
+    move = (random.normal(size=(3, 3)) * [0.08, 0.08, 0.02])[:, -1 - up :]
     strain, steps = random.choice([0.0, 0.02]), int(random.integers(1, 4))
     rigid = options["mortar_side"] == RIGID
     create = functools.partial(Interface, library, x1, facets1, x2, facets2, components, rigid, **options)
@@ -116,12 +184,15 @@ def play(library, seed):
             interface.set("friction", random.uniform(0, 1, len(x1)))
         if random.random() < 0.2:
             interface.set("augmentation", random.uniform(1, 20, len(x1)))
+        if random.random() < 0.2 and options["friction"] == COULOMB and not options.get("decision"):
+            law = LAWS[random.integers(len(LAWS))] | {"direction": (ctypes.c_double * 3)(2.0, -1.0, 0.0)}
+            library.call("interface_set_law", interface.handle, ctypes.byref(Law(**law)))
         for step in range(steps):
             one = x1 + move[step] + strain * random.normal(size=x1.shape)
             two = x2 + 0.3 * move[step - 1] + (0.0 if facets2 is None else strain * random.normal(size=x2.shape))
             lam = random.normal(size=(len(x1), components)) * 5
-            if components == 3:
-                lam[:, 2] -= 5 * random.integers(0, 3)  # a pressure: nu points up
+            if components == 1 + up:
+                lam[:, up] -= 5 * random.integers(0, 3)  # a pressure: nu points up
             at = one, two, lam
             order = random.permutation(3)
             for which in order[: 2 + random.integers(2)]:

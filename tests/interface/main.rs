@@ -44,6 +44,7 @@ mod reduction;
 mod report;
 mod rigid;
 mod search;
+mod shares;
 mod stacked;
 mod surface;
 mod symmetric;

@@ -9,7 +9,7 @@ use stickslip::geometry::Vec3;
 use stickslip::interface::{
     Contact, Friction, NO_WEAK_COVERAGE, Normals, Options, Piece, SplitRows, Weights, split_rows,
 };
-use stickslip::law::State;
+use stickslip::law::{Ellipse, Own, State};
 
 /// The solution against that of the condensed system: the condition of the systems times rounding.
 const SAME: f64 = 1e-10;
@@ -77,7 +77,7 @@ fn states<const N: usize>(s: &mut weak::Scene<N>) -> Vec<State> {
 
 #[test]
 fn constraints_are_diagonal_and_without_friction_the_rest_is_symmetric() {
-    let mut seen = [false; 3];
+    let (mut seen, mut orthotropic) = ([false; 3], [false; 3]);
     for weak_coverage in [NO_WEAK_COVERAGE, WEAK] {
         for friction in [Friction::Coulomb, Friction::Rough, Friction::Tied, Friction::Tresca] {
             let options = Options { weights: Weights::Committed, weak_coverage, ..options() };
@@ -91,12 +91,20 @@ fn constraints_are_diagonal_and_without_friction_the_rest_is_symmetric() {
             s.contact.set_constraints(&directions).unwrap();
             check(&mut s, &format!("{what}, directions taken away"), symmetric);
         }
+        for (mu, across) in [(0.4, 0.05), (0.4, 3.0), (40.0, 3.0)] {
+            let options = Options { weights: Weights::Committed, weak_coverage, mu, ..options() };
+            let mut s = scene::<3>(options);
+            let ellipse = Ellipse { direction: Vec3::new(2.0, -1.0, 0.7), across };
+            s.contact.set_law(Some(Own::Orthotropic(ellipse))).unwrap();
+            check(&mut s, &format!("orthotropic, {mu} {across} {weak_coverage}"), false);
+            states(&mut s).iter().for_each(|state| orthotropic[*state as usize] = true);
+        }
         let options = Options { weights: Weights::Committed, weak_coverage, mu: 0.0, ..options() };
         check(&mut scene::<3>(options), &format!("mu = 0, {weak_coverage}"), true);
         let options = Options { friction: Friction::None, ..options };
         check(&mut scene::<1>(options), &format!("one multiplier, {weak_coverage}"), true);
     }
-    assert!(seen.iter().all(|s| *s), "gap, stick, slip: {seen:?}");
+    assert!(seen.iter().chain(&orthotropic).all(|s| *s), "gap, stick, slip: {seen:?} {orthotropic:?}");
 }
 
 /// Whatever weights and normals do, the solution is the same.
@@ -136,7 +144,7 @@ fn slip_across_its_direction_near_the_cone_is_a_constraint() {
     let (nu, t, s) = (Vec3::z(), Vec3::x(), Vec3::y());
     for (beta, directions) in [(0.5, 1.0), (1.0 - 1e-9, 2.0), (1.0, 2.0)] {
         let n = nu * nu.transpose() - t * nu.transpose() * 0.3 + s * s.transpose() * beta;
-        let SplitRows { constrained, rows } = split_rows(State::Slip, &nu, &n);
+        let SplitRows { constrained, rows } = split_rows(State::Slip, &nu, &n, &(s * s.transpose() * beta));
         assert!((constrained.trace() - directions).abs() <= CANCELLED && rows.amax() <= 2.0, "{beta}: {rows}");
     }
 }

@@ -1,6 +1,7 @@
 //! What a host can do that factors symmetric matrices alone (docs/plug_in.md 4): frozen weights make tangents symmetric where
-//! no node slips, with the augmented form, and L K L^T takes the step of the condensed system.
+//! no node slips, with the augmented form, and P^T K P takes the step of the condensed system.
 
+use super::condensed::of_parents;
 use super::weak::{Scene, WEAK};
 use crate::support::differences::Point;
 use crate::support::mesh::*;
@@ -12,7 +13,7 @@ use stickslip::interface::{
 
 /// K - K^T over the largest entry: rounding of products in another order.
 const SYMMETRIC: f64 = 1e-15;
-/// The same of L K L^T, sums of a few hundred products of numbers of size 20.
+/// The same of P^T K P, sums of a few hundred products of numbers of size 20.
 const PRODUCTS: f64 = 1e-14;
 /// What is not symmetric is off by more than this.
 const UNSYMMETRIC: f64 = 1e-4;
@@ -103,8 +104,7 @@ fn host(n: usize) -> (DMatrix<f64>, DVector<f64>) {
     (&a * a.transpose() + DMatrix::identity(n, n), DVector::from_fn(n, |_, _| random.next()))
 }
 
-/// The step from the condensed matrix as it is, and from L K L^T + Q with Q = I - W, as docs/plug_in.md 4 says.
-/// How many nodes are covered and open.
+/// The step from the condensed matrix as it is, and from P^T K P + Q, as docs/plug_in.md 4 says. How many nodes are covered and open.
 fn steps_agree<const N: usize>(s: &mut Scene<N>, what: &str) -> usize {
     let (n1, n) = (s.x1.len(), 3 * (s.x1.len() + s.x2.len()));
     let (k, own) = host(n);
@@ -135,29 +135,29 @@ fn steps_agree<const N: usize>(s: &mut Scene<N>, what: &str) -> usize {
         m
     };
     assert_eq!(piece(Piece::Forces).amax(), 0.0, "{what}: frozen weights");
-    let (l, g) = (piece(Piece::Elimination) + DMatrix::identity(n, n), piece(Piece::Constraints));
-    // Of closed nodes with multipliers of their own: Q, and v, which meets the constraints by these nodes alone.
-    let (mut rest, mut v) = (DMatrix::zeros(n, n), DVector::zeros(n));
-    let (mut sticking, mut open) = (0, 0);
+    let one = DMatrix::identity(n, n);
+    let (left, right) = (&one + piece(Piece::ReductionRows), &one + piece(Piece::ReductionColumns));
+    let (q, d, l) = (piece(Piece::Constrained), piece(Piece::ConstraintDiagonal), piece(Piece::Elimination));
+    let (p, r) = (&right * (&one - &q), left * r);
+    // v meets the constraints by the nodes that have them.
+    let (mut v, mut constrained, mut open) = (DVector::zeros(n), 0, 0);
     for a in 0..n1 {
-        let at = (3 * a, 3 * a);
-        let closed = nalgebra::Matrix3::identity() - l.fixed_view::<3, 3>(at.0, at.1);
-        if closed.amax() > 0.5 {
-            rest.fixed_view_mut::<3, 3>(at.0, at.1).copy_from(&closed);
-            let scale = g.fixed_view::<3, 3>(at.0, at.1).trace() / closed.trace();
-            v.fixed_rows_mut::<3>(3 * a).copy_from(&(closed * r.fixed_rows::<3>(3 * a) / -scale));
-            sticking += 1;
+        let block = |m: &DMatrix<f64>| -> nalgebra::Matrix3<f64> { m.fixed_view::<3, 3>(3 * a, 3 * a).into() };
+        let (q, d) = (block(&q), block(&d));
+        if q.trace() > 0.5 {
+            let scale = d.trace() / q.trace();
+            v.fixed_rows_mut::<3>(3 * a).copy_from(&(q * r.fixed_rows::<3>(3 * a) / -scale));
+            constrained += 1;
         } else if l.columns(3 * a, 3).rows(3 * n1, n - 3 * n1).amax() > 0.0 {
             open += 1;
         }
     }
-    assert!(sticking >= 3, "{what}: {sticking} nodes");
-    let matrix = &l * &k * l.transpose() + &rest;
+    assert!(constrained >= 3, "{what}: {constrained} nodes");
+    let matrix = p.transpose() * &k * &p + &q;
     assert!(asymmetry(&matrix) <= PRODUCTS, "{what}: {:e}", asymmetry(&matrix));
-    // Rows of Q hold constraints, which v meets; the others the forces.
-    let right = -(&r - &rest * &r) - &l * (&k * &v);
-    let w = matrix.cholesky().unwrap_or_else(|| panic!("{what}: not positive definite")).solve(&right);
-    let step = l.transpose() * w + v;
+    let right_side = -(&one - &q) * &r - p.transpose() * (&k * (&right * &v));
+    let w = matrix.cholesky().unwrap_or_else(|| panic!("{what}: not positive definite")).solve(&right_side);
+    let step = p * w + right * v;
     let off = (&step - &expected).amax() / expected.amax();
     assert!(off <= SAME, "{what}: {off:e}");
     open
@@ -187,6 +187,24 @@ fn a_symmetric_positive_definite_system_takes_the_condensed_step() {
                 open_some(&mut s);
             }
             assert_eq!(steps_agree(&mut s, &what("one multiplier", open)) > 0, open);
+        }
+    }
+}
+
+/// Multipliers at the corners of quadratic facets: a node in the middle of an edge has none, and moves with the corners.
+#[test]
+fn with_quadratic_facets_too() {
+    for kinds in [[&[8][..], &[6][..]], [&[9, 8, 6, 6], &[8, 6, 9, 9, 8]], [&[6], &[4]], [&[4], &[9]]] {
+        for weak_coverage in [NO_WEAK_COVERAGE, WEAK] {
+            for (friction, mu) in [(Friction::Rough, 0.0), (Friction::Coulomb, STICKS)] {
+                let options = Options { friction, mu, weights: Weights::Committed, weak_coverage, ..options() };
+                steps_agree(&mut of_parents::<3>(options, false, kinds), &format!("{kinds:?} {friction:?}"));
+            }
+            let options = Options { friction: Friction::None, mu: 0.0, weak_coverage, ..options() };
+            let options = Options { weights: Weights::Committed, ..options };
+            let mut s = of_parents::<1>(options, false, kinds);
+            s.lambda.iter_mut().for_each(|l| *l = -*l); // most of them press
+            steps_agree(&mut s, &format!("{kinds:?} one multiplier"));
         }
     }
 }

@@ -146,6 +146,17 @@ States = struct(
     ),
 )
 
+Law = struct(
+    "Law",
+    ("kind", c_int32),
+    ("reserved", c_int32),
+    ("cohesion", c_double),
+    ("mu_after", c_double),
+    ("critical_slip", c_double),
+    ("mu_across", c_double),
+    ("direction", c_double * 3),
+)
+SUMS = 11  # numbers a node of stickslip_interface_sums
 
 # The variable of the environment that says which multipliers the matrix is about, and the library's numbers of them.
 BASIS = "STABILITY_BASIS"
@@ -217,9 +228,9 @@ def mid_nodes(n_nodes, facets, corners=CORNERS):
 class Interface:
     """Two surfaces: x (n, 3), facets of 3, 4, 6, 8 or 9 nodes each; `facets2` None: an analytic surface, of which x2 is the frame.
     `components`: multipliers a node has, 1 without friction. Equations are counted through x1, x2, lambda; a mortar side
-    that is analytic or `rigid` has none. A point is given as x1, x2, lambda. With lines (`model`) x is (n, 2)."""
+    that is analytic or `rigid` has none, unless its `frame` has. A point is given as x1, x2, lambda. With lines (`model`) x is (n, 2)."""
 
-    def __init__(self, library, x1, facets1, x2, facets2, components=None, rigid=False, **options):
+    def __init__(self, library, x1, facets1, x2, facets2, components=None, rigid=False, frame=False, **options):
         self.dimension = dimension = 2 if options.get("model") else 3
         self.library, self.components = library, components or dimension
         components = self.components
@@ -227,7 +238,7 @@ class Interface:
         self.unknowns = (dimension + components) * self.n1 + dimension * self.n2
         numbers = np.arange(self.unknowns, dtype=np.int64)
         one, two, multipliers = np.split(numbers, [dimension * self.n1, dimension * (self.n1 + self.n2)])
-        if rigid or facets2 is None:
+        if rigid or (facets2 is None and not frame):
             two = np.full_like(two, -1)
         self.kept = []
         sides = [self.surface(x1, facets1, one), self.surface(x2, facets2, two)]
@@ -256,10 +267,10 @@ class Interface:
             made.facet_nodes = self.keep(np.concatenate(list(facets)), np.int64)
         return made
 
-    def call(self, name, at, *arguments):
-        """A call of the interface at a point, no prescribed normal gaps."""
+    def call(self, name, at, *arguments, sums=None):
+        """A call of the interface at a point; `sums`: those of several handles."""
         x1, x2, lam = (np.ascontiguousarray(v, float) for v in at)
-        self.library.call(f"interface_{name}", self.handle, *map(pointer, (x1, x2, lam)), None, *arguments)
+        self.library.call(f"interface_{name}", self.handle, *map(pointer, (x1, x2, lam, sums)), *arguments)
 
     def close(self):
         self.library.call("interface_destroy", byref(self.handle))
@@ -275,10 +286,17 @@ class Interface:
         self.library.call("interface_initial_multipliers", self.handle, pointer(out))
         return out
 
-    def residual(self, *at):
+    def sums(self, x1, x2):
+        """This handle's share of what the nodes assemble."""
+        x1, x2 = (np.ascontiguousarray(x, float) for x in (x1, x2))
+        out = np.zeros((self.n1, SUMS))
+        self.library.call("interface_sums", self.handle, *map(pointer, (x1, x2, out)))
+        return out
+
+    def residual(self, *at, sums=None):
         """f1, f2, rows"""
         out = [np.zeros((self.n1, self.dimension)), np.zeros((self.n2, self.dimension)), np.zeros((self.n1, self.components))]
-        self.call("residual", at, *map(pointer, out))
+        self.call("residual", at, *map(pointer, out), sums=sums)
         return out
 
     def triplets(self, *at):
@@ -295,6 +313,29 @@ class Interface:
         matrix = np.zeros((self.unknowns, self.unknowns))
         np.add.at(matrix, (rows, columns), values)
         return matrix
+
+    def piece(self, piece, *at):
+        """A piece of the system without multipliers, dense, by the displacements."""
+        at = [np.ascontiguousarray(v, float) for v in at]
+        count, n = c_int64(), self.dimension * (self.n1 + self.n2)
+        call = lambda capacity, out: self.library.call(
+            "interface_condensed_coo", self.handle, *map(pointer, at), c_int32(piece), capacity, *out, byref(count)
+        )
+        call(c_int64(0), (None, None, None))
+        out = [np.zeros(count.value, np.int64), np.zeros(count.value, np.int64), np.zeros(count.value)]
+        call(count, map(pointer, out))
+        matrix = np.zeros((n, n))
+        np.add.at(matrix, (out[0], out[1]), out[2])
+        return matrix
+
+    def condensed(self, x1, x2, host1):
+        """The multipliers that balance the host's own forces at the non-mortar nodes, the rows in their place, and the forces at the
+        mortar nodes."""
+        x1, x2, host1 = (np.ascontiguousarray(v, float) for v in (x1, x2, host1))
+        lam, rows, forces = np.zeros((self.n1, self.components)), np.zeros_like(x1), np.zeros_like(x2)
+        self.library.call("interface_condensed_multipliers", self.handle, *map(pointer, (x1, x2, host1, lam)))
+        self.library.call("interface_condensed_residual", self.handle, *map(pointer, (x1, x2, lam, host1, rows, forces)))
+        return lam, rows, forces
 
     def states(self, *at):
         """What the nodes do, by the names of the header's struct."""

@@ -54,19 +54,31 @@ pub struct Row {
     value: Vec3,
     /// dc_A/dlambda_A.
     derivative: Mat3,
+    /// dc_A/dg_A of the gap that slip is measured by.
+    slip: Mat3,
     state: State,
 }
 
 impl Row {
     /// Of the law's answer.
     pub fn of<const N: usize>(response: &NodeResponse<N>) -> Row {
-        let NodeResponse { row, drow_dlambda, state, .. } = response;
-        Row { value: widened(row), derivative: widened_matrix(drow_dlambda), state: *state }
+        let NodeResponse { row, drow_dlambda, drow_dprevious, state, .. } = response;
+        Row {
+            value: widened(row),
+            derivative: widened_matrix(drow_dlambda),
+            slip: widened_matrix(drow_dprevious),
+            state: *state,
+        }
     }
 
     /// Gap, stick or slip.
     pub fn state(&self) -> State {
         self.state
+    }
+
+    /// dc/dg of the gap that slip is measured by.
+    pub(super) fn slip(&self) -> &Mat3 {
+        &self.slip
     }
 }
 

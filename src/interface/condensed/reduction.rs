@@ -10,6 +10,8 @@
 //! - rows of C: E_CB = -L_CB (I - Q_B) E_BB takes out what rows of forces of B have brought there;
 //! - columns: (E_R)_BC = Q_B L_CB^T, and (E_R)_mB = c_Bm, (E_R)_mC = c_Bm Q_B L_CB^T of nodes m of `hats.rs`.
 //!
+//! Where friction is not the same in all directions a sticking node's row is its gap stretched, L^2 g; E_BB takes the stretch out.
+//!
 //! Both are invertible, so the solution is that of the condensed system. E_L J E_R has the constraint s_B D_B Q_B v_B = known
 //! in place of a penalty, and for the rest the stiffness of the bodies tied along Q.
 
@@ -22,6 +24,8 @@ use crate::law::State;
 /// Where a node slips, 1 - beta is the share of forces in the row across the direction of slip. From this share on the row
 /// counts as a constraint: to divide by less would give it the weight of 1000 stiffness rows.
 const LEAST_SHARE_OF_FORCES: f64 = 1e-3;
+/// dc/dg of a row that is not stretched is a projector to this rounding of a few products.
+const NOT_STRETCHED: f64 = 1e-12;
 
 /// How a node's own rows are split.
 #[derive(Clone, Copy, Debug)]
@@ -32,15 +36,21 @@ pub struct SplitRows {
     pub rows: Mat3,
 }
 
-/// The split of a node with normal nu and condensed rows W R + ..., from N = I - W = T (I + r dc/dlambda) T^T.
-pub fn split_rows(state: State, nu: &Vec3, n: &Mat3) -> SplitRows {
-    let one = Mat3::identity();
+/// The split of a node with normal nu and condensed rows W R + ..., from N = I - W = T (I + r dc/dlambda) T^T and from `slip`,
+/// dc/dg of the gap that slip is measured by.
+pub fn split_rows(state: State, nu: &Vec3, n: &Mat3, slip: &Mat3) -> SplitRows {
+    let (one, along) = (Mat3::identity(), nu * nu.transpose());
+    let in_surface = (one - along) * slip * (one - along);
     match state {
         State::Gap => SplitRows { constrained: Mat3::zeros(), rows: one },
-        State::Stick => SplitRows { constrained: *n, rows: one },
+        State::Stick => {
+            let stretch = one + in_surface - (n - along);
+            let is_stretched = in_surface.amax() > 0.0 && (stretch - one).amax() > NOT_STRETCHED;
+            let rows = if is_stretched { stretch.try_inverse().unwrap_or(one) } else { one };
+            SplitRows { constrained: *n, rows }
+        }
         State::Slip => {
-            // N = nu nu^T - mu t nu^T + beta s s^T.
-            let along = nu * nu.transpose();
+            // N = nu nu^T - mu t nu^T + beta s s^T; stretched, with L t and (L s) (L^-1 s)^T.
             let friction = (one - along) * n * along;
             let across = (one - along) * n * (one - along);
             let beta = across.trace();
@@ -48,7 +58,10 @@ pub fn split_rows(state: State, nu: &Vec3, n: &Mat3) -> SplitRows {
             if forces > LEAST_SHARE_OF_FORCES {
                 SplitRows { constrained: along, rows: one - friction + across / forces }
             } else {
-                SplitRows { constrained: along + across / beta, rows: one - friction }
+                let along_s = across * across.transpose() / across.norm_squared();
+                let stretch = (along_s * in_surface).trace();
+                let scale = if stretch > 0.0 { 1.0 / stretch - 1.0 } else { 0.0 };
+                SplitRows { constrained: along + along_s, rows: (one + along_s * scale) * (one - friction) }
             }
         }
     }
@@ -56,7 +69,7 @@ pub fn split_rows(state: State, nu: &Vec3, n: &Mat3) -> SplitRows {
 
 impl Elimination {
     fn split(&self, b: usize, row: &Row) -> SplitRows {
-        split_rows(row.state(), self.normal(b), &(Mat3::identity() - self.diagonal(b, row)))
+        split_rows(row.state(), self.normal(b), &(Mat3::identity() - self.diagonal(b, row)), row.slip())
     }
 
     /// Gives E_L - I.

@@ -21,6 +21,7 @@ pub mod points;
 pub mod points_now;
 pub mod residual;
 pub mod respond;
+pub mod shares;
 pub mod spin;
 pub mod sums;
 pub mod turn;

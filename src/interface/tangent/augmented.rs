@@ -65,18 +65,13 @@ impl NodeCouplings {
         dp: (Mat3, Mat3),
     ) -> Result<()> {
         self.add_gap::<MOVES>(k, nodes, now, previous, dp)?;
-        self.add_forces::<MOVES>(k, nodes, now)
+        self.add_forces(k, &nodes[..slots(MOVES)], now)
     }
 
-    /// Adds what p_A acts on, of such a pair.
-    pub fn add_forces<const MOVES: bool>(
-        &mut self,
-        k: usize,
-        nodes: &[Option<usize>; PAIR_NODES],
-        now: Option<&PairNow>,
-    ) -> Result<()> {
+    /// Adds what p_A acts on, of such a pair: these first slots of it.
+    pub fn add_forces(&mut self, k: usize, nodes: &[Option<usize>], now: Option<&PairNow>) -> Result<()> {
         let Some(PairNow { weights: w, .. }) = now else { return Ok(()) };
-        for (j, node) in nodes[..slots(MOVES)].iter().enumerate() {
+        for (j, node) in nodes.iter().enumerate() {
             let Some(node) = *node else { continue };
             let coupling = self.find(node)?;
             coupling.weight += if j < MORTAR { w.ab[k][j] } else { -w.ac[k][j - MORTAR] };

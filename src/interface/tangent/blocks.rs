@@ -30,7 +30,7 @@ use crate::interface::stages::respond::Responses;
 use crate::interface::stages::sums::NodeSums;
 use crate::law::NodeResponse;
 use crate::memory::{self, Store};
-use crate::mortar::{ForceDerivatives, GapDerivative, MORTAR, PairWeights, gap};
+use crate::mortar::{self, ForceDerivatives, GapDerivative, MORTAR, PairWeights, gap};
 use nalgebra::{SMatrix, SVector};
 use std::ops::Range;
 
@@ -152,8 +152,8 @@ impl<const N: usize> Numbers<'_, N> {
     }
 }
 
-/// Adds a pair to what its nodes' tractions are coupled with; in the multiplier form they act on its nodes, and no gap of
-/// it moves them.
+/// Adds a pair to what its nodes' tractions are coupled with; in the multiplier form they act on its nodes, those of a frame
+/// with equations too, and no gap of it moves them.
 fn couple<const MOVES: bool, const N: usize>(
     (given, normals): (Given<N>, &[Vec3]),
     (pair, now, previous): (&UnionPair, Option<&PairNow>, Option<&PairWeights>),
@@ -163,7 +163,8 @@ fn couple<const MOVES: bool, const N: usize>(
     let slots = pair.slots(given.setup);
     let mut nodes = given.setup.nonmortar.facets[pair.one].as_slice().iter().enumerate();
     if given.setup.options.form == Form::Multiplier {
-        return nodes.try_for_each(|(k, &a)| couplings[a].add_forces::<MOVES>(k, &slots, now));
+        let moves = MOVES || given.setup.frame_moves();
+        return nodes.try_for_each(|(k, &a)| couplings[a].add_forces(k, &slots[..mortar::slots(moves)], now));
     }
     for (k, &a) in nodes {
         let dp = match numbers {

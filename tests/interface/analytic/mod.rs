@@ -2,6 +2,7 @@
 
 mod abi;
 mod facets;
+mod frames;
 mod invariants;
 mod limits;
 mod parents;
@@ -120,6 +121,11 @@ where
     Contact<N>: Create,
 {
     fn new(shape: AnalyticShape, cells: Cells, options: Options) -> Rough<N> {
+        Rough::with(shape, cells, options, false)
+    }
+
+    /// `moves`: whether the frame has equations, after those of the patch and of the multipliers.
+    fn with(shape: AnalyticShape, cells: Cells, options: Options, moves: bool) -> Rough<N> {
         let (q, shift, mut random) = (askew(), Vec3::new(3.0, -2.0, 1.0), Random(11));
         let mut mesh = grid(2, 2, [0.0, 0.0], [1.0, 1.0], 0.01, false, cells);
         let mut noise = |x: &Vec3| x + random.vector(0.01);
@@ -127,7 +133,11 @@ where
             (mesh.x.iter().map(&mut noise).collect(), mesh.x.iter().map(noise).collect());
         mesh.x = turned(&q, shift, &before);
         let frame = turned(&q, shift, &frame_of(shape));
-        let contact = against(&mesh, shape, &frame, options).unwrap();
+        let mut surface = Surface::analytic("mortar", shape, frame.to_vec()).unwrap();
+        if moves {
+            surface.equations = equations((3 + N) * mesh.x.len(), frame.len());
+        }
+        let contact = Create::create(nonmortar(&mesh), surface, options).unwrap();
         let step = Rotation3::from_euler_angles(0.001, -0.002, 0.003);
         let x2 = frame.iter().map(|x| frame[0] + step * (x - frame[0]) + Vec3::new(0.002, 0.0, -0.001)).collect();
         let lambda = multipliers(before.len(), &q, &mut random);
