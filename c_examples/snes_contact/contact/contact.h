@@ -128,8 +128,8 @@ typedef struct {
   PetscInt      *nodes;      /* n1 + n2 mesh vertices */
   PetscReal     *place;      /* 3 (n1 + n2): where they are, in the axes of the scene file; then X */
   PetscInt      *copies;     /* n1: which copy of its vertex each is, on creases (creases.c); else 0 */
-  PetscInt       n_copies, n_creased; /* of all ranks, beside the first ones; corners of faces that want one */
-  const char    *uncreased;  /* why they have none */
+  PetscInt       n_copies;   /* of all ranks, beside the first ones */
+  PetscBool      blunted;    /* there would be some, but the scene wants none */
   PetscInt      *prescribed, *part_of; /* n1 + n2: mask of prescribed displacements; the model's part (physics.h) */
   PetscSF        pieces;     /* from the vertices of the mesh's pieces to the nodes, until the mesh is distributed */
   PetscInt      *removed;    /* n1: mask of directions without a multiplier, see read_surfaces() */

@@ -237,11 +237,11 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
     PetscCall(create_parts(contact, i, status));
     if (*status) break;
     PetscCall(check_facing(scene, quiet, interface, mesh->rank));
-    if (interface->uncreased && interface->n_creased && !quiet)
+    if (interface->blunted && !quiet)
       PetscCall(PetscPrintf(PETSC_COMM_WORLD,
-                            "%s: '%s' has sharp edges, and %s leaves their nodes one normal for both sides: forces there are wrong where only one "
-                            "of the sides touches. Name the faces that touch alone.\n",
-                            interface->name, interface->surface[0]->name, interface->uncreased));
+                            "%s: '%s' has sharp edges, and with `crease_angle: 0` their nodes have one normal for both sides: forces are wrong "
+                            "where one side touches alone.\n",
+                            interface->name, interface->surface[0]->name));
   }
   if (!*status) PetscCall(condensed_create(contact, status));
   PetscFunctionReturn(PETSC_SUCCESS);

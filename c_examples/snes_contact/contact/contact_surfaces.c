@@ -54,11 +54,38 @@ static PetscErrorCode fetch_places(const Mesh *mesh, Interface *interface)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Each copy of a vertex has been moved along its own normal: the vertex goes all these ways. */
+static PetscErrorCode join_ways(const Mesh *mesh, const Interface *interface)
+{
+  const PetscInt n = interface->n1 + interface->n2;
+  PetscReal     *one, *sum;
+  PetscFunctionBegin;
+  if (!interface->n_copies) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc2(n, &one, mesh->n_vertices, &sum));
+  for (int i = 0; i < 3; i++) {
+    for (PetscInt v = 0; v < mesh->n_vertices; v++)
+      sum[v] = mesh->coordinates[3 * v + i];
+    PetscCall(PetscSFBcastBegin(interface->pieces, MPIU_REAL, sum, one, MPI_REPLACE));
+    PetscCall(PetscSFBcastEnd(interface->pieces, MPIU_REAL, sum, one, MPI_REPLACE));
+    for (PetscInt k = 0; k < n; k++)
+      one[k] = interface->place[3 * k + i] - one[k];
+    PetscCall(PetscSFReduceBegin(interface->pieces, MPIU_REAL, one, sum, MPIU_SUM));
+    PetscCall(PetscSFReduceEnd(interface->pieces, MPIU_REAL, one, sum, MPIU_SUM));
+    PetscCall(PetscSFBcastBegin(interface->pieces, MPIU_REAL, sum, one, MPI_REPLACE));
+    PetscCall(PetscSFBcastEnd(interface->pieces, MPIU_REAL, sum, one, MPI_REPLACE));
+    for (PetscInt k = 0; k < n; k++)
+      interface->place[3 * k + i] = one[k];
+  }
+  PetscCall(PetscFree2(one, sum));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode surfaces_move(Contact *contact, const Interface *interface)
 {
   Mesh        *mesh = contact->mesh;
   MPI_Datatype vector;
   PetscFunctionBegin;
+  PetscCall(join_ways(mesh, interface));
   PetscCallMPI(MPI_Type_contiguous(3, MPIU_REAL, &vector));
   PetscCallMPI(MPI_Type_commit(&vector));
   PetscCall(PetscSFReduceBegin(interface->pieces, vector, interface->place, mesh->coordinates, MPI_REPLACE));

@@ -2,7 +2,7 @@
  * normal and multipliers of its own. Every rank asks it about the nodes that are at home here, with the facets around them. */
 #include "contact/packet.h"
 
-/* What is an edge where the scene does not say: sharper than a circle of ten facets, as sharp as half of a right angle. */
+/* What is an edge where the scene does not say: facets of a circle of ten meet at 36 degrees. */
 static const PetscReal CREASE_ANGLE = 40;
 
 /* The nodes at home and the facets around them. */
@@ -114,14 +114,6 @@ static PetscErrorCode send(const Mesh *mesh, const Interface *interface, const C
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Why nodes stay as they are where the scene does not ask for that; NULL: they need not. */
-static const char *stay(const Contact *contact, const Interface *interface)
-{
-  if (contact->condensed) return "`unknowns: displacements`";
-  if (decision_is_points(interface)) return "`decision: points`";
-  return NULL;
-}
-
 static PetscErrorCode split(const Mesh *mesh, Interface *interface, const PetscInt copies[], PetscInt **nodes)
 {
   const PetscInt n_corners = interface->surface[0]->offsets[interface->surface[0]->n_faces];
@@ -143,7 +135,7 @@ PetscErrorCode creases_split(Scene *scene, const Contact *contact, Interface *in
   const PetscInt n_corners = share->offsets[share->n_faces];
   ContactPart    part      = {0};
   PetscReal      angle     = CREASE_ANGLE;
-  PetscInt      *copies, *here, n1[2];
+  PetscInt      *copies, *here, creased = 0;
   PetscFunctionBegin;
   *nodes = NULL;
   scene_real(scene, interface->name, "crease_angle", &angle);
@@ -154,16 +146,20 @@ PetscErrorCode creases_split(Scene *scene, const Contact *contact, Interface *in
   PetscCall(PetscMalloc1(n_corners, &here));
   PetscCall(ask(interface, &part, angle > 0 ? angle : CREASE_ANGLE, copies));
   PetscCall(send(mesh, interface, &part, copies, here));
-  interface->n_creased = 0;
   for (PetscInt k = 0; k < n_corners; k++)
-    interface->n_creased += here[k] > 0;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &interface->n_creased, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
-  interface->uncreased = angle > 0 ? stay(contact, interface) : "`crease_angle: 0`";
-  if (interface->n_creased && !interface->uncreased) {
-    n1[0] = interface->n1;
+    creased += here[k] > 0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &creased, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
+  interface->blunted = (PetscBool)(creased && angle == 0);
+  if (creased && contact->condensed && angle > 0)
+    scene_fail(scene, NULL, "unknowns",
+               "'%s' of '%s' has sharp edges: their nodes need multipliers for each side, and without multipliers among the unknowns there is "
+               "one. Name the faces that touch alone, or take `unknowns: multipliers`; with `crease_angle: 0` these nodes have one normal "
+               "for both sides.",
+               share->name, interface->name);
+  if (creased && angle > 0) {
+    const PetscInt before = interface->n1;
     PetscCall(split(mesh, interface, here, nodes));
-    n1[1] = interface->n1;
-    interface->n_copies = n1[1] - n1[0];
+    interface->n_copies = interface->n1 - before;
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &interface->n_copies, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
   }
   PetscCall(PetscFree(copies));

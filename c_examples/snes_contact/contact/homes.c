@@ -102,8 +102,8 @@ PetscErrorCode homes_coordinates(const Interface *interface, PetscInt n, const P
 PetscLogDouble homes_bytes(const Interface *interface)
 {
   const PetscLogDouble vector = interface->dimension * 8.0, n1 = interface->n1, n = interface->n1 + interface->n2;
-  /* nodes, place, prescribed, part_of; X, displacements, forces, equations; removed, middle, owner; states */
-  PetscLogDouble       bytes = n * (3 * sizeof(PetscInt) + 3 * sizeof(PetscReal) + 4 * vector) + n1 * 3 * sizeof(PetscInt);
+  /* nodes, place, prescribed, part_of; X, displacements, forces, equations; removed, middle, owner, copies; states */
+  PetscLogDouble       bytes = n * (3 * sizeof(PetscInt) + 3 * sizeof(PetscReal) + 4 * vector) + n1 * 4 * sizeof(PetscInt);
   if (interface->states.state) bytes += n1 * (4 + 8 * (3 * 3 + 4));
   for (int side = 0; side < 2; side++) {
     const Surface *surface = interface->surface[side];
