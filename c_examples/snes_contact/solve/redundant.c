@@ -72,11 +72,11 @@ static PetscErrorCode look_at_home(const Contact *contact, PetscInt number, cons
 {
   const Interface *interface = &contact->interfaces[number];
   const PetscInt   c = interface->components, field = 1 + number, all = interface->dimension == 3 ? 7 : 3;
-  const PetscInt  *nodes = interface->nodes;
+  const PetscInt  *nodes = interface->nodes, *copies = interface->copies;
   int64_t         *equations;
   PetscSF          sf;
   PetscFunctionBegin;
-  PetscCall(unknowns_gather_create(contact->physics, 1, &interface->n1, &nodes, &field, &c, &sf));
+  PetscCall(unknowns_gather_create(contact->physics, 1, &interface->n1, &nodes, &copies, &field, &c, &sf));
   PetscCall(PetscMalloc1(c * interface->n1, &equations));
   PetscCall(contact_equations(contact, sf, c * interface->n1, equations));
   for (PetscInt k = 0; k < c * interface->n1; k++) {
