@@ -29,7 +29,7 @@ PLANTED = {
     "double": "base gives its two sides different forces",
     "push": "contact forces on '",
     "unfelt": "not converged beyond t = 0",
-    "huge": "between the surfaces of base, which their softer body",
+    "huge": "between the surfaces of base, which the softer side",
 }
 # A wall of E = 1000 that cannot widen, pressed against one that is held in all: so many times its modulus.
 PRESSED = {"carried": (5.0, 0), "more than it can carry": (20.0, 2)}
