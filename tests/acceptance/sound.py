@@ -1,5 +1,6 @@
-"""No run ends well out of balance: faults that are planted in the driver (c_examples/tests/planted_faults.c) are found and named, and tractions
-beyond what bodies can carry are. And what is as it should be is not refused."""
+"""No run ends well out of balance, or with energy from nowhere: faults that are planted in the driver (c_examples/tests/planted_faults.c) are found and named, and tractions
+beyond what bodies can carry are, a block that sinks with persistent weights, with dynamics and without, and one that spins. And what is as it should be
+is not refused."""
 
 import os
 
@@ -28,10 +29,42 @@ PLANTED = {
     "double": "base gives its two sides different forces",
     "push": "contact forces on '",
     "unfelt": "not converged beyond t = 0",
-    "huge": "between the surfaces of base, which their softer body",
+    "huge": "between the surfaces of base, which the softer side",
 }
 # A wall of E = 1000 that cannot widen, pressed against one that is held in all: so many times its modulus.
 PRESSED = {"carried": (5.0, 0), "more than it can carry": (20.0, 2)}
+
+# A block that is drawn over a flat elastic floor, pressed by its weight: 0.6 of a facet a step. Statics, where a support draws it.
+DRAWN = {
+    "schema": 1,
+    "model": "plane_strain",
+    "bodies": ["block", "floor"],
+    "block": {"type": "box", "lower": [0, 0], "upper": [0.4, 0.2], "cells": [4, 2], "young": 1e4, "poisson": 0.3, "density": 20, "small_strain": True},
+    "floor": {"type": "box", "lower": [-0.4, -0.4], "upper": [2.6, 0], "cells": [30, 4], "young": 1e4, "poisson": 0.3, "density": 2, "small_strain": True},
+    "supports": ["ground", "draw"],
+    "ground": {"surface": "floor.ymin", "components": ["x", "y"]},
+    "draw": {"surface": "block.ymax", "components": ["x"], "value": [1.5, 0], "curve": [0, 0, 1, 1]},
+    "loads": ["weight"],
+    "weight": {"body": "block", "gravity": [0, -100], "curve": [0, 1, 9, 1]},
+    "interfaces": ["base"],
+    "base": {"nonmortar": "block.ymin", "mortar": "floor.ymax", "weights": "persistent"},
+    "probes": ["corner"],
+    "corner": {"body": "block", "point": [0, 0.2]},
+    "steps": {"count": 25},
+    "output": {"vtu": "none", "csv": "none"},
+}
+MOVES = {"block": DRAWN["block"] | {"velocity": [1.5, 0]}, "supports": ["ground"], "dynamics": {"rho_inf": 1}}
+SPINS = {
+    "schema": 1,
+    "model": "plane_strain",
+    "bodies": ["block"],
+    "block": {"type": "box", "lower": [-0.1, -0.1], "upper": [0.1, 0.1], "cells": [4, 4], "young": 1000, "poisson": 0.3, "density": 1, "material": "neo_hooke",
+              "spin": 3, "about": [0, 0]},
+    "dynamics": {"rho_inf": 1},
+    "output": {"vtu": "none", "csv": "none"},
+}
+# Of its static depth, 0.01: a block that swings, on coarse facets.
+DEPTH = 0.03
 
 
 class Planted(Driver):
@@ -46,6 +79,8 @@ def sound(verdicts, driver):
     driver.output.mkdir(parents=True, exist_ok=True)
     planted(verdicts, driver)
     carried(verdicts, driver)
+    sinks(verdicts, driver)
+    spins(verdicts, driver)
 
 
 def planted(verdicts, driver):
@@ -71,3 +106,29 @@ def carried(verdicts, driver):
         run = driver.run(write(scene, driver.output / f"pressed_{code}.yaml"), expect=code)
         told = "a traction of 2e+04 between the surfaces of base" in run.text
         verdicts.true(f"pressed by {times} times its modulus", told == bool(code), name)
+
+
+def sinks(verdicts, driver):
+    for name, more in (("drawn", {}), ("moves", MOVES)):
+        scene = {**DRAWN, **more}
+        if "draw" not in scene["supports"]:
+            del scene["draw"]
+        path = write(scene, driver.output / f"{name}.yaml")
+        run = driver.run(path, label=f"{name}_persistent", expect=None)
+        deepest = -min((step["probes"]["corner"][1] for step in run.summary["steps"] if "probes" in step), default=0)
+        told = "have sunk into each other" in run.text
+        verdicts.true(f"{name}, persistent weights: exit {run.exit_code}", told or deepest < DEPTH, f"sinks by {deepest:.2g}: told")
+        run = driver.run(path, "-base_weights", "current", label=name)
+        deepest = -min(step["probes"]["corner"][1] for step in run.steps)
+        verdicts.below(f"{name}, weights of now: depth", deepest, DEPTH, "stays on top")
+        verdicts.true(f"{name}, weights of now: nothing told", "have sunk" not in run.text, "it does not")
+
+
+def spins(verdicts, driver):
+    """Long steps end the run, shorter ones are told of once, short ones are right."""
+    for count, turn, code, told in ((25, 0.3, 2, True), (25, 0.05, 0, True), (25, 0.002, 0, False)):
+        scene = {**SPINS, "steps": {"count": count, "end": count * turn / 3}}
+        run = driver.run(write(scene, driver.output / f"spins_{turn}.yaml"), label=f"spins_{turn}", expect=code)
+        words = "the time integration has given or taken"
+        verdicts.true(f"a block spins by {turn} a step", (words in run.text) == told, words if told else "its energy stays")
+        verdicts.true(f"a block spins by {turn} a step: summary", ("numerical" in run.summary.get("energy_told", {})) == told, "the same")

@@ -160,7 +160,7 @@ typedef struct {
   Halo           halo;
   double         friction_work;           /* of all ranks, up to the last converged step */
   double         young, largest_traction; /* of the softer body; up to the last converged step */
-  double         confined;                /* modulus of the softer body where it cannot widen; 0: both are rigid */
+  double         confined;                /* modulus of the softer side where it cannot widen; PETSC_MAX_REAL: both are rigid */
   PetscReal      between[4];              /* forces on the nodes that this rank counts: their sum, and that of their sizes */
   char           modulus_from[64];        /* with decisions at points: what the modulus of both bodies is made of */
   stickslip_equilibrium equilibrium;      /* of this part, as last judged (equilibrium.c) */

@@ -1,20 +1,27 @@
 /* Interfaces as the scene describes them: surfaces, law, form, and which multiplier components are unknowns at all. */
 #include "contact/contact.h"
 
-/* of the softest body that an interface's nodes belong to: E, and the modulus of what cannot widen */
+/* E of the softest body that an interface's nodes belong to; and the modulus where it cannot widen of the softer side, each taken as its stiffest
+ * body. What is wholly prescribed is rigid. */
 static PetscErrorCode find_young(const Contact *contact, Interface *interface)
 {
-  PetscReal least[2] = {PETSC_MAX_REAL, PETSC_MAX_REAL}; /* what a wholly prescribed, so rigid surface counts as */
+  PetscReal young = PETSC_MAX_REAL, stiffest[2] = {0, 0};
   PetscFunctionBegin;
   for (PetscInt k = 0; k < interface->n1 + interface->n2; k++) {
-    const PetscInt body = mesh_body_of(contact->mesh, interface->nodes[k]);
+    const PetscInt  body     = mesh_body_of(contact->mesh, interface->nodes[k]);
+    const Material *material = &contact->physics->materials[body];
+    PetscReal      *side     = &stiffest[k >= interface->n1];
+    if (contact->mesh->bodies[body].rigid) *side = PETSC_MAX_REAL;
     if (interface->prescribed[k] == 7 || contact->mesh->bodies[body].rigid) continue;
-    least[0] = PetscMin(least[0], contact->physics->materials[body].young);
-    least[1] = PetscMin(least[1], material_confined(&contact->physics->materials[body]));
+    young = PetscMin(young, material->young);
+    *side = PetscMax(*side, material_confined(material));
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, least, 2, MPIU_REAL, MPIU_MIN, PETSC_COMM_WORLD));
-  interface->young    = least[0] == PETSC_MAX_REAL ? contact->physics->materials[0].young : least[0]; /* nothing moves */
-  interface->confined = least[1] == PETSC_MAX_REAL ? 0 : least[1];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &young, 1, MPIU_REAL, MPIU_MIN, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, stiffest, 2, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
+  interface->young = young == PETSC_MAX_REAL ? contact->physics->materials[0].young : young; /* nothing moves */
+  for (int side = 0; side < 2; side++)
+    stiffest[side] = stiffest[side] > 0 ? stiffest[side] : PETSC_MAX_REAL;
+  interface->confined = PetscMin(stiffest[0], stiffest[1]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

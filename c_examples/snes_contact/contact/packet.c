@@ -49,6 +49,7 @@ static PetscErrorCode pack(const Interface *interface, const Side *side, const P
       entry[5] = interface->removed[k];
       entry[6] = interface->middle[k];
       entry[7] = interface->copies[k];
+      entry[3] = entry[3] && !entry[7]; /* copies of a vertex are one node of the body */
     }
     PetscCall(put(packet, width(side->which), entry));
   }

@@ -42,9 +42,10 @@ static PetscErrorCode check_tractions(const Physics *physics, const Interface *i
 {
   const PetscReal traction = interface->equilibrium.traction_scale;
   PetscFunctionBegin;
-  if (!(interface->confined > 0) || traction <= STRAIN * interface->confined * shortness(physics, interface->confined)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (interface->confined == PETSC_MAX_REAL || traction <= STRAIN * interface->confined * shortness(physics, interface->confined))
+    PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscSNPrintf(why, length,
-                          "a traction of %.2g between the surfaces of %s, which their softer body, with a modulus of %.2g, cannot carry. Some of its "
+                          "a traction of %.2g between the surfaces of %s, which the softer side, with a modulus of %.2g, cannot carry. Some of its "
                           "conditions push on nothing, or say what others say: see whether supports hold nodes of both sides, or another interface "
                           "has the same nodes; take the other side as `nonmortar`, or another `basis`",
                           (double)traction, interface->name, (double)interface->confined));

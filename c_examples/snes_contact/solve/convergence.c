@@ -117,7 +117,7 @@ static PetscErrorCode confirm(Solve *solve, PetscReal *norm)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Why an iterate that looks converged is not, in newton->unsound; `at_once`: iterating on changes nothing. */
+/* An iterate looks converged and is not: newton->unsound says why. `at_once`: iterating on changes nothing. */
 static PetscErrorCode refuse(Newton *newton, PetscBool at_once, SNESConvergedReason *reason)
 {
   PetscFunctionBegin;
