@@ -11,6 +11,6 @@ struct Multiplier {
   PetscReal X[3], coverage;
 };
 
-/* dependent.c: of `n` multipliers whose products S (n x n, overwritten) are: which follow from those before them */
-void dependent_find(PetscInt n, const Multiplier multipliers[], PetscReal S[], PetscBool dependent[]);
+/* dependent.c: of `n` multipliers, which to leave out; S (n x n, overwritten): products of their forces */
+PetscErrorCode dependent_find(PetscInt n, const Multiplier multipliers[], PetscReal S[], PetscBool dependent[]);
 #endif
