@@ -90,6 +90,8 @@ static PetscErrorCode look_at_home(const Contact *contact, PetscInt number, cons
     *m = (Multiplier){.equation = (PetscInt)equations[k], .interface = number, .number = homes_number(interface, a), .component = k % c};
     m->coverage = interface->states.coverage[a];
     m->tied     = (PetscBool)(interface->options.friction == STICKSLIP_FRICTION_TIED);
+    m->held     = (PetscBool)(m->tied ? (interface->prescribed[a] >> m->component) & 1 : (interface->prescribed[a] & all) == all);
+    m->gap      = m->tied ? 0 : interface->states.gap[a] / m->coverage;
     contact_vector(interface->dimension, interface->X, a, m->X);
     (*n)++;
   }
