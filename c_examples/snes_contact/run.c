@@ -1,6 +1,7 @@
 /* Pseudo-time: Newton's method, cut-back, commit, report. */
 #include "model.h"
 #include "physics/dynamics.h"
+#include "solve/redundant.h"
 
 static PetscErrorCode run_create(Model *model, Run *run)
 {
@@ -64,6 +65,8 @@ static PetscErrorCode solve_determined(Model *model, Run *run, PetscBool *done)
     PetscCall(redundant_find(solve, run->x, &n_found));
     *done = PETSC_FALSE;
   } while (n_found);
+  if (*done) PetscCall(torn_find(solve, solve->newton.why, sizeof(solve->newton.why)));
+  if (solve->newton.why[0]) *done = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

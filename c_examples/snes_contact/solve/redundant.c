@@ -2,15 +2,18 @@
  *
  * Where interfaces share nodes, and where supports hold nodes of both surfaces, two conditions may say the same: then the matrix is
  * singular, and its solution is made of rounding. They are found in value: the forces of all multipliers on what can move
- * are the columns of C, and one is redundant whose column is a combination of others. Only nodes that several surfaces have
- * and nodes that supports hold can be so: a surface's own nodes that are free tell its multipliers apart. So with N = C^T C all others are eliminated, and
- * dependent.c looks at what is left.
+ * are the columns of C, and one is redundant whose column is a combination of others. Only nodes that several
+ * surfaces have and nodes that supports hold can be so: a surface's own nodes that are free tell its multipliers apart. So of N = C^T C all
+ * others are eliminated, and dependent.c looks at what is left.
  *
  * Forces of the others can be all that they were: displacements do not change when a redundant multiplier is left out, nor does the
  * sum of the reactions. The library's handle is made anew without it; its unknown is zero. */
 #include "solve/redundant.h"
 #include "solve/direct.h"
 #include <stdlib.h>
+
+/* Eigenvectors of so many multipliers take a second; of more they are not sought, and what a step ends with is looked at alone. */
+enum { MOST_SUSPECTS = 1000 };
 
 /* Only these have forces that are a multiplier's times weights. */
 static PetscBool may_have(const Interface *interface)
@@ -24,7 +27,7 @@ static PetscBool has_component(const Interface *interface, PetscInt node, PetscI
   return (PetscBool)!(interface->components > 1 ? (removed >> component) & 1 : removed == 7);
 }
 
-/* In how many surfaces of interfaces each non-mortar node is; one array an interface. */
+/* In how many surfaces of interfaces each non-mortar node is, where these cover it; one array an interface. */
 static PetscErrorCode count_surfaces(const Contact *contact, PetscInt *surfaces[])
 {
   PetscInt  n = 0, n_here, at = 0, *nodes, *ones, *sums;
@@ -35,11 +38,11 @@ static PetscErrorCode count_surfaces(const Contact *contact, PetscInt *surfaces[
   PetscCall(PetscMalloc2(n, &nodes, n, &ones));
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     const Interface *interface = &contact->interfaces[i];
-    PetscCall(PetscArraycpy(nodes + at, interface->nodes, interface->n1 + interface->n2));
-    at += interface->n1 + interface->n2;
+    for (PetscInt k = 0; k < interface->n1 + interface->n2; k++, at++) {
+      nodes[at] = interface->nodes[k];
+      ones[at]  = k >= interface->n1 || interface->states.coverage[k] > 0;
+    }
   }
-  for (PetscInt k = 0; k < n; k++)
-    ones[k] = 1;
   PetscCall(directory_create(contact->mesh, n, nodes, &n_here, &directory));
   PetscCall(PetscCalloc1(n_here, &sums));
   PetscCall(PetscSFReduceBegin(directory, MPIU_INT, ones, sums, MPI_SUM));
@@ -82,10 +85,13 @@ static PetscErrorCode look_at_home(const Contact *contact, PetscInt number, cons
   for (PetscInt k = 0; k < c * interface->n1; k++) {
     const PetscInt a = k / c;
     Multiplier    *m = &found[*n];
-    if (equations[k] < 0 || !has_component(interface, a, k % c) || (surfaces[a] < 2 && !(interface->prescribed[a] & all))) continue;
+    if (equations[k] < 0 || !has_component(interface, a, k % c) || !(interface->states.coverage[a] > 0)) continue;
+    if (surfaces[a] < 2 && !(interface->prescribed[a] & all)) continue;
     *m = (Multiplier){.equation = (PetscInt)equations[k], .interface = number, .number = homes_number(interface, a), .component = k % c};
     m->coverage = interface->states.coverage[a];
     m->tied     = (PetscBool)(interface->options.friction == STICKSLIP_FRICTION_TIED);
+    m->held     = (PetscBool)(m->tied ? (interface->prescribed[a] >> m->component) & 1 : (interface->prescribed[a] & all) == all);
+    m->gap      = m->tied ? 0 : interface->states.gap[a] / m->coverage;
     contact_vector(interface->dimension, interface->X, a, m->X);
     (*n)++;
   }
@@ -282,7 +288,7 @@ static PetscErrorCode judge(Solve *solve, PetscInt n, const Multiplier suspects[
     PetscCall(ISGetSize(others, &n_others));
     if (n_others) PetscCall(eliminate_others(N, suspect, others, S));
     PetscCall(gather(S, n, order, values));
-    dependent_find(n, suspects, values, redundant);
+    PetscCall(dependent_find(n, suspects, values, redundant));
     PetscCall(MatDestroy(&S));
     PetscCall(MatDestroy(&sparse));
     PetscCall(ISDestroy(&suspect));
@@ -384,7 +390,7 @@ PetscErrorCode redundant_find(Solve *solve, Vec x, PetscInt *n_found)
   PetscCall(find_suspects(solve->contact, &n, &suspects));
   solve->redundant.suspected = (PetscBool)(n > 0 || solve->redundant.n > 0);
   PetscCall(PetscMalloc1(n, &found));
-  if (n) {
+  if (n && n <= MOST_SUSPECTS) {
     PetscCall(judge(solve, n, suspects, found));
     PetscCall(leave_out(solve, n, suspects, found, n_found));
     PetscCall(tell(solve));

@@ -3,14 +3,17 @@
 #define SNES_CONTACT_REDUNDANT_H
 #include "solve/solve.h"
 
-/* A multiplier that may be redundant: its equation, of which component of which node of which interface; where that is, and what is
- * covered of the node. */
+/* A multiplier that may be redundant: its equation, of which component of which node of which interface; whether that is tied, and held by
+ * supports (of contact: wholly); where that is, what is covered of the node, and how far that is open. */
 struct Multiplier {
   PetscInt  equation, interface, number, component;
-  PetscBool tied;
-  PetscReal X[3], coverage;
+  PetscBool tied, held;
+  PetscReal X[3], coverage, gap;
 };
 
-/* dependent.c: of `n` multipliers whose products S (n x n, overwritten) are: which follow from those before them */
-void dependent_find(PetscInt n, const Multiplier multipliers[], PetscReal S[], PetscBool dependent[]);
+/* dependent.c: of `n` multipliers, which to leave out; S (n x n, overwritten): products of their forces */
+PetscErrorCode dependent_find(PetscInt n, const Multiplier multipliers[], PetscReal S[], PetscBool dependent[]);
+
+/* torn.c: ties that supports tear where their conditions are left out, in words */
+PetscErrorCode torn_find(Solve *solve, char why[], size_t size);
 #endif
