@@ -240,7 +240,7 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_node_response_size = 408
   integer(c_int64_t), parameter :: stickslip_node_size = 240
   integer(c_int64_t), parameter :: stickslip_facet_size = 72
-  integer(c_int64_t), parameter :: stickslip_equilibrium_size = 136
+  integer(c_int64_t), parameter :: stickslip_equilibrium_size = 216
   integer(c_int64_t), parameter :: stickslip_rigid_body_size = 56
   integer(c_int64_t), parameter :: stickslip_rigid_motion_size = 136
   integer(c_int64_t), parameter :: stickslip_law_size = 72

@@ -241,3 +241,31 @@ def test_shapes_that_fit_are_each_named_once():
             face.residual(x1, x2, np.zeros((9, 1)))
         with pytest.raises(ValueError, match=r"^x1: shape \(3,\), \(9, 3\) or \(27,\) is needed$"):
             face.residual(np.zeros(3), x2, np.zeros(9))
+
+
+def test_a_step_is_asked_whether_it_may_count():
+    with scene.Solid(mu=0.0) as solid:
+        face, lam, modulus = solid.interface, np.tile(-5.0 * solid.nu, (len(solid.x1), 1)), 1000.0
+        e = face.check_step(solid.x1, solid.x2, lam, modulus=modulus)  # touches, and no word
+        assert e.penetration == e.lag == e.apart == 0
+        with pytest.raises(stickslip.StepRefused, match="not in equilibrium"):
+            face.check_step(solid.x1 - 0.01 * solid.nu, solid.x2, lam, modulus=modulus)
+        for angle, outcome in ((0.015, pytest.warns(stickslip.StepWarning, match="lag")), (0.05, pytest.raises(stickslip.StepRefused, match="lag"))):
+            turn = np.array([[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [-np.sin(angle), 0, np.cos(angle)]])
+            with outcome:
+                face.check_step(solid.x1 @ turn.T, solid.x2 @ turn.T, lam, modulus=modulus)
+
+
+def test_a_commit_is_checked_and_nothing_changes(blocks):
+    face, point = blocks.interface, blocks.pressed()
+    before = face.residual(*point)
+    face.commit_check(*point)
+    for one, other in zip(before, face.residual(*point)):
+        np.testing.assert_array_equal(one, other)
+    with pytest.raises(stickslip.Error):
+        face.rollback()  # none was made
+    x1 = point[0] @ np.array([[0, 0, 1.0], [0, 1, 0], [-1, 0, 0]]).T
+    for refuses in (face.commit_check, face.commit):
+        with pytest.raises(stickslip.errors.TurnedTooFar):
+            refuses(x1, point[1], point[2])
+    face.commit(*point)

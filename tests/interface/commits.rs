@@ -7,7 +7,7 @@ use crate::support::press::{Place, Press};
 use nalgebra::{Isometry3, Rotation3};
 use stickslip::error::Kind;
 use stickslip::geometry::Vec3;
-use stickslip::interface::{Contact, Friction, MultiplierBasis, NO_EQUATION, Options, Stiffness, Surface};
+use stickslip::interface::{Contact, Friction, MultiplierBasis, NO_EQUATION, Options, Stiffness, Surface, Weights};
 use stickslip::law::State;
 
 /// Gaps and coverage of the same pairs, which another tree may bring in another order: rounding.
@@ -198,4 +198,34 @@ fn a_commit_settles_the_pairs_that_a_search_of_its_own_finds() {
     }
     println!("{compared} commits compared, {changed} with other pairs than before, {refused} refused");
     assert!(compared > 150 && changed > 60);
+}
+
+/// A check has the commit's refusals, and neither it nor they change anything: what follows has the same bits.
+#[test]
+fn a_commit_that_is_checked_is_the_same_commit() {
+    let mut seen = 0;
+    for options in [options(), Options { weights: Weights::Committed, ..options() }] {
+        for seed in 1..5 {
+            let [mut t, mut other] = [(); 2].map(|()| moved(&options, [Cells::Quads, Cells::Triangles], FLAT, seed));
+            let first = t.interface.residual(&t.x1, &t.x2, &t.lambda, None).unwrap();
+            let answer = t.interface.check_commit(&t.x1, &t.x2, &t.lambda, None);
+            assert_eq!(t.interface.residual(&t.x1, &t.x2, &t.lambda, None).unwrap(), first);
+            let committed = other.interface.commit(&other.x1, &other.x2, &other.lambda, None);
+            assert_eq!(format!("{answer:?}"), format!("{committed:?}"));
+            assert_eq!(format!("{:?}", t.interface.commit(&t.x1, &t.x2, &t.lambda, None)), format!("{committed:?}"));
+            assert_eq!(t.interface.export_history().unwrap(), other.interface.export_history().unwrap());
+            // After a commit the check leaves what can be rolled back.
+            if committed.is_ok() {
+                t.interface.check_commit(&t.x1, &t.x2, &t.lambda, None).unwrap();
+                t.interface.roll_back().unwrap();
+                assert_eq!(t.interface.residual(&t.x1, &t.x2, &t.lambda, None).unwrap(), first);
+                seen += 1;
+            }
+            let turn = Rotation3::from_axis_angle(&Vec3::y_axis(), 1.0);
+            let x1: Vec<_> = t.x1.iter().map(|x| turn * x).collect();
+            let refused = t.interface.check_commit(&x1, &t.x2, &t.lambda, None).unwrap_err();
+            assert_eq!(refused.kind, t.interface.commit(&x1, &t.x2, &t.lambda, None).unwrap_err().kind);
+        }
+    }
+    assert!(seen > 4, "{seen}");
 }

@@ -147,6 +147,8 @@ static const PetscReal SLIDE_MAX = 0.5;
 /* How far weights of the reference may turn before that is told, in radians, unless `turn_max` says: so much of the pressure acts as a
  * shear then. As far off are the forces of the linear material at its limit (range.c). */
 static const PetscReal TURN_TOLD = 0.03;
+/* Default of `lag_max`: what a mesh shows of a contact's force. */
+static const PetscReal LAG_MAX = 0.02;
 
 /* Keys by which surfaces are beside their meshes: with persistent weights an overlap by them would count as closed. */
 static const char *const OFFSETS[] = {"offset", "offset_at", "round"};
@@ -173,6 +175,7 @@ static void read_method(Scene *scene, Interface *interface)
   interface->initial_contact = PETSC_TRUE;
   interface->slide.most      = SLIDE_MAX;
   interface->turn.most       = TURN_TOLD;
+  interface->lag.most        = LAG_MAX;
   scene_string(scene, name, "slip", word, sizeof(word));
   if (!strcmp(word, "seed")) scene_fail(scene, name, "slip", "'seed' is called 'paper' now.");
   scene_choice(scene, name, "slip", slips, &slip);
@@ -195,6 +198,7 @@ static void read_method(Scene *scene, Interface *interface)
   scene_real(scene, name, "coverage_min", &coverage_min);
   scene_real(scene, name, "turn_max", &turn_max);
   scene_real(scene, name, "slide_max", &interface->slide.most);
+  scene_real(scene, name, "lag_max", &interface->lag.most);
   if (scene_has(scene, name, "augmentation") && augmentation <= 0)
     scene_fail(scene, name, "augmentation", "it must be positive.");
   if (scene_has(scene, name, "modulus") && modulus <= 0) scene_fail(scene, name, "modulus", "it must be positive.");
@@ -206,6 +210,7 @@ static void read_method(Scene *scene, Interface *interface)
   if (turn_max < 0 || turn_max > PETSC_PI)
     scene_fail(scene, name, "turn_max", "it is an angle in radians: from 0 to pi.");
   if (!(interface->slide.most > 0)) scene_fail(scene, name, "slide_max", "it must be positive.");
+  if (!(interface->lag.most > 0)) scene_fail(scene, name, "lag_max", "it must be positive.");
   options->multiplier_basis = (int32_t)basis;
   options->normals          = (int32_t)normal;
   options->turn_max         = turn_max;

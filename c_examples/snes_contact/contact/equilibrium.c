@@ -2,7 +2,6 @@
  * interface. */
 #include "contact/contact.h"
 #include <stdio.h>
-#include <stdlib.h>
 
 /* Part of a scale that a violation may be, over the tolerance of the forces: the rows of the default augmentation, which is
  * a tenth of E / h, would be compared with the forces so. */
@@ -115,12 +114,5 @@ void equilibrium_accept(Contact *contact)
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     Interface *interface        = &contact->interfaces[i];
     interface->largest_traction = PetscMax(interface->largest_traction, interface->equilibrium.traction_scale);
-    if (getenv("DUMP") && interface->part.handle) {
-      const stickslip_equilibrium *e = &interface->equilibrium;
-      double te = interface->young > 0 ? e->traction_scale / interface->young : -1, c = te < 0 ? 1 : PetscMin(1, PetscMax(0.1, 10 * te));
-      printf("DUMP %s t %g pen/h %.3g apart/h %.3g t/E %.3g worth %.3g apartworth %.3g lag %.3g lagforce %.3g\n", interface->name, (double)contact->physics->t,
-             e->penetration_scale > 0 ? e->penetration / e->penetration_scale * c : 0, e->apart_scale > 0 ? e->apart / e->apart_scale * c : 0, te,
-             e->penetration_scale > 0 ? e->penetration / e->penetration_scale * c / te : 0, e->apart_scale > 0 ? e->apart / e->apart_scale * c / te : 0, e->traction_scale > 0 ? e->lag / e->traction_scale : 0, e->lag_force_scale > 0 ? e->lag_force / e->lag_force_scale : 0);
-    }
   }
 }

@@ -7,8 +7,12 @@
 /* An overlap, over the library's scale, that is told, and one with which no step counts: a hundredth and a tenth of a facet where the
  * pressure is large; where nothing presses, less. */
 static const PetscReal OVERLAP_TOLD = 0.03, OVERLAP_MOST = 0.1;
-/* The same of the lag of a node over the largest traction; and of that of all nodes over their force, with which no step counts. */
-static const PetscReal LAG_TOLD = 0.01, LAG_MOST = 0.1, LAG_FORCE_MOST = 0.02;
+/* The same of the lag of a node over the largest traction. That of all nodes over their force, with which no step counts, is the scene's
+ * `lag_max`; one node may be this many times as far off. */
+static const PetscReal LAG_TOLD = 0.01, NODE_MOST = 5;
+
+/* The step that follows aims below what is allowed by so much: turns are even, what slips is not. */
+static const PetscReal LAG_MARGIN = 1.3;
 
 static const char *remedy(const Interface *interface)
 {
@@ -62,13 +66,13 @@ PetscErrorCode unseen_check(Contact *contact, PetscReal *ratio, char why[], size
       if (wrong[k]->amount > OVERLAP_MOST)
         PetscCall(PetscSNPrintf(why, length, "converged, but %s. %s", wrong[k]->words, remedy(interface)));
     }
-    lags   = PetscMax(interface->lag.amount / LAG_MOST, interface->lag_force / LAG_FORCE_MOST);
-    *ratio = PetscMax(*ratio, lags);
+    lags   = PetscMax(interface->lag.amount / NODE_MOST, interface->lag_force) / interface->lag.most;
+    *ratio = PetscMax(*ratio, LAG_MARGIN * lags);
     if (lags > 1)
       PetscCall(PetscSNPrintf(why, length,
-                              "converged, but %s: with normals of the step's start. Take shorter steps, or `normals: current`, "
-                              "which turn with it",
-                              interface->lag.words));
+                              "converged, but %s: with normals of the step's start %.2g %% of its force is wrong. Take `normals: current`, "
+                              "which turn with it, shorter steps, or a larger `lag_max` (it is %g) if that is meant",
+                              interface->lag.words, (double)(100 * interface->lag_force), (double)interface->lag.most));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

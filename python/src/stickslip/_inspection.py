@@ -15,7 +15,7 @@ _TYPES = {"double": np.float64, "int32_t": np.int32, "int64_t": np.int64}
 # No sentence of the library comes near it.
 _TEXT = 1 << 16
 # Parts of their scales from which overlaps and lags are told, and from which no step counts.
-_OVERLAP, _LAG = (0.03, 0.1), (0.01, 0.1)
+_OVERLAP, _LAG, _LAG_FORCE = (0.03, 0.1), (0.01, 0.1), 0.02
 
 
 def _members(name: str):
@@ -89,11 +89,13 @@ class Inspection:
             if not getattr(e, name) <= tolerance * scale:
                 raise StepRefused(f"the contact is not in equilibrium: a {name} of {getattr(e, name):.3g} that the law forbids, of a "
                                   f"scale of {scale:.3g}, at node {getattr(e, name + '_node')}")
+        lags = (f"surfaces have turned within the step, and pressures lag by {e.lag:.3g} at node {e.lag_node}: take a smaller step, or "
+                "normals of now")
         for amount, scale, (told, most), text in (
             (e.penetration, e.penetration_scale, _OVERLAP, f"bodies overlap by {e.penetration:.3g} at node {e.penetration_node}"),
             (e.apart, e.apart_scale, _OVERLAP, f"node {e.apart_node} presses although the bodies are {e.apart:.3g} apart"),
-            (e.lag, e.traction_scale, _LAG, f"surfaces have turned within the step, and pressures lag by {e.lag:.3g} at node {e.lag_node}: "
-                                            "take a smaller step, or normals of now"),
+            (e.lag, e.traction_scale, _LAG, lags),
+            (e.lag_force, e.lag_force_scale, (_LAG_FORCE, _LAG_FORCE), lags),
         ):
             if amount > most * scale:
                 raise StepRefused(text)

@@ -37,6 +37,8 @@ pub const ROUNDINGS: f64 = 8.0;
 
 /// A node presses where its traction is more than this part of the largest one.
 const PRESSES: f64 = 0.01;
+/// And more than this part of the modulus: rounding.
+const NOTHING: f64 = 1e-12;
 /// What a slipping node's traction is wrong by is judged beside friction where that is more than this part of the traction, else beside all
 /// of it: torques of shafts are friction's.
 const FRICTION: f64 = 0.1;
@@ -219,12 +221,14 @@ pub fn equilibrium<const N: usize>(
     }
     if options.friction.law().opens {
         look(given.setup.surfaces(), (x1, x2), work)?;
+        let least = (PRESSES * traction).max(NOTHING * scales.modulus);
         let presses = |a: usize| {
             let acts = given.setup.has_multiplier(a) && given.setup.nodes.acts(a);
-            acts && lambda[a].norm() * (sums[a].coverage / areas[a]).min(1.0) > PRESSES * traction
+            acts && lambda[a].norm() * (sums[a].coverage / areas[a]).min(1.0) > least
         };
         let scales = Scales { traction, ..*scales };
-        [all.penetration, all.apart] = overlap::largest(&work.room.seen, &presses, &scales, rounding);
+        [all.penetration, all.apart] =
+            overlap::largest(&given.setup.nonmortar, &work.room.seen, &presses, &scales, rounding);
     }
     Ok(all)
 }

@@ -4,12 +4,14 @@
 //! A weighted gap is a mean over the facets around a node. It may read open where a body dents a facet that is coarser than the
 //! contact, or closed where overlaps count as closed. So every node of either side is looked at (`pairing/nearest.rs`).
 //!
-//! Facets are chords: two round surfaces whose nodes touch overlap by their sagittas. These do not count. Nor does what the
+//! Facets are chords: a round body and a hollow one whose nodes touch overlap by the sagittas of the hollow one, and where they are pressed
+//! together, so that gaps and overlaps have the mean 0, by those of the round one, too. These do not count. Nor does what the
 //! pressure there would make of a gap in any case: an overlap d changes the pressure by E d / h, so that with a modulus d counts
 //! against h p / E, but never against more than h nor less than a tenth of that: before anything presses a
 //! hundredth of a facet is as bad as a tenth is later.
 
 use super::equilibrium::{Largest, Scales};
+use crate::interface::data::surface::Surface;
 use crate::interface::pairing::nearest::{Nearest, Seen};
 
 /// An overlap counts in full against a facet where the pressure is this part of the modulus or more.
@@ -28,13 +30,22 @@ fn scale(size: f64, scales: &Scales) -> f64 {
 
 /// The largest overlap, and the largest distance at which a node `presses`, of what was looked at. `scales`: with the largest traction;
 /// `rounding` does not count.
-pub fn largest(seen: &Seen, presses: &dyn Fn(usize) -> bool, scales: &Scales, rounding: f64) -> [Largest; 2] {
+pub fn largest(
+    one: &Surface,
+    seen: &Seen,
+    presses: &dyn Fn(usize) -> bool,
+    scales: &Scales,
+    rounding: f64,
+) -> [Largest; 2] {
     let mut found = [Largest::default(); 2];
     let mut offer = |which: usize, n: &Nearest, gap: f64| {
-        found[which].offer((gap - n.sagitta - rounding).max(0.0), scale(n.size, scales), n.node);
+        found[which].offer((gap - rounding).max(0.0), scale(n.size, scales), n.node);
     };
-    seen.nearest.iter().filter(|n| n.opposes && n.gap < 0.0).for_each(|n| offer(0, n, -n.gap));
+    for n in seen.nearest.iter().filter(|n| n.opposes && n.gap < -n.sagittas[0]) {
+        let pressed = one.rows(n.facet).as_slice().iter().any(|&a| presses(a));
+        offer(0, n, -n.gap - n.sagittas[0] - if pressed { n.sagittas[1] } else { 0.0 });
+    }
     let pressing = seen.front.iter().enumerate().filter(|(a, n)| n.gap.is_finite() && presses(*a));
-    pressing.for_each(|(_, n)| offer(1, n, n.gap));
+    pressing.for_each(|(_, n)| offer(1, n, n.gap - n.sagittas[0] - n.sagittas[1]));
     found
 }

@@ -6,7 +6,7 @@ use super::filter::{LEAST_OPPOSITION, SMOOTH};
 use super::prism::{Prism, Slab};
 use super::work::Work;
 use crate::error::Result;
-use crate::geometry::{OUTSIDE, Over, Plane, Vec3};
+use crate::geometry::{Facet, OUTSIDE, Over, Plane, Vec3};
 use crate::interface::data::surface::{NO_FACET, Surface};
 use crate::memory;
 
@@ -21,17 +21,20 @@ const SAGITTA_OF_LINE: f64 = 0.125;
 pub struct Nearest {
     /// How far in front of it `[L]`; negative: behind.
     pub gap: f64,
-    /// What of an overlap the facets' sagittas are `[L]`.
-    pub sagitta: f64,
+    /// What of an overlap the facets' sagittas may be: in any case, and where they are pressed together until gaps and overlaps have the
+    /// mean 0 `[L]`.
+    pub sagittas: [f64; 2],
     /// The longest edge of the smaller facet `[L]`.
     pub size: f64,
     /// Whether the two look at each other.
     pub opposes: bool,
-    /// A non-mortar node there.
+    /// A non-mortar facet and node there.
+    pub facet: usize,
     pub node: usize,
 }
 
-const NOTHING: Nearest = Nearest { gap: f64::INFINITY, sagitta: 0.0, size: 0.0, opposes: false, node: 0 };
+const NOTHING: Nearest =
+    Nearest { gap: f64::INFINITY, sagittas: [0.0; 2], size: 0.0, opposes: false, facet: 0, node: 0 };
 
 impl Nearest {
     fn offer(&mut self, other: Nearest) {
@@ -52,12 +55,19 @@ pub struct Seen {
     pub normals: [Vec<Vec3>; 2],
 }
 
-/// How far a facet may lie off the round surface that it stands for `[L]`.
-fn sagitta(surface: &Surface, normals: &[Vec3], f: usize, edge: f64) -> f64 {
-    let beyond = surface.neighbours[f].iter().filter(|&&g| g != NO_FACET);
-    let smooth = beyond.map(|&g| (&normals[f], &normals[g as usize])).filter(|(m, n)| m.dot(n) > SMOOTH);
-    let part = if surface.lines().is_some() { SAGITTA_OF_LINE } else { SAGITTA };
-    part * edge * smooth.map(|(m, n)| m.cross(n).norm()).fold(0.0, f64::max)
+/// How far a facet may lie off the round surface that it stands for `[L]`: outside of the body where that is hollow, inside where it is round.
+fn sagittas(surface: &Surface, normals: &[Vec3], x: &[Vec3], (f, facet): (usize, &Facet)) -> [f64; 2] {
+    let part = if surface.lines().is_some() { SAGITTA_OF_LINE } else { SAGITTA } * facet.longest_edge();
+    let mut most = [0.0_f64; 2];
+    for &g in surface.neighbours[f].iter().filter(|&&g| g != NO_FACET) {
+        let (m, n) = (&normals[f], &normals[g as usize]);
+        if m.dot(n) > SMOOTH {
+            let rise: f64 = surface.facet(g as usize, x).nodes.iter().map(|p| m.dot(&(p - facet.nodes[0]))).sum();
+            let which = usize::from(rise < 0.0);
+            most[which] = most[which].max(part * m.cross(n).norm());
+        }
+    }
+    most
 }
 
 /// Looks at every node of facets that are not idle.
@@ -75,7 +85,7 @@ pub fn look((one, two): (&Surface, &Surface), (x1, x2): (&[Vec3], &[Vec3]), work
         let facet = one.facet(i, x1);
         let (plane, edge) = (Plane::of(&facet).map_err(one.at(i))?, facet.longest_edge());
         let (nodes, rows) = (one.facets[i].as_slice(), one.rows(i).as_slice());
-        let own = sagitta(one, &normals[0], i, edge);
+        let own = sagittas(one, &normals[0], x1, (i, &facet));
         let mut meet = |place: usize, found: Nearest| {
             nearest[place].offer(found);
             if found.opposes {
@@ -92,7 +102,7 @@ pub fn look((one, two): (&Surface, &Surface), (x1, x2): (&[Vec3], &[Vec3]), work
                 if let Some(closest) = surface.closest(x - surface.origin) {
                     let opposes = -plane.e.dot(&closest.normal) > LEAST_OPPOSITION;
                     let gap = closest.distance + one.offset(node);
-                    meet(place, Nearest { gap, sagitta: own, size: edge, opposes, node });
+                    meet(place, Nearest { gap, sagittas: own, size: edge, opposes, facet: i, node });
                 }
             }
             continue;
@@ -110,8 +120,16 @@ pub fn look((one, two): (&Surface, &Surface), (x1, x2): (&[Vec3], &[Vec3]), work
             }
             let other = two.facet(j, x2);
             let (over, length) = (Over::new(&other, &plane), other.longest_edge());
-            let sagitta = own + sagitta(two, &normals[1], j, length);
-            let found = |gap, node| Nearest { gap, sagitta, size: edge.min(length), opposes: opposition > 0.0, node };
+            let others = sagittas(two, &normals[1], x2, (j, &other));
+            let sagittas = [own[0] + others[0], own[1] + others[1]];
+            let found = |gap, node| Nearest {
+                gap,
+                sagittas,
+                size: edge.min(length),
+                opposes: opposition > 0.0,
+                facet: i,
+                node,
+            };
             for &a in nodes {
                 if let Some((height, n)) = over.height(x1[a], &plane) {
                     let offset = one.offset(a) + over.mean(&n, |k| two.offset(two.facets[j].of_corner(k)));
