@@ -5,6 +5,7 @@ mod facets;
 mod invariants;
 mod limits;
 mod parents;
+mod passing;
 mod tangent;
 
 use crate::support::max_abs;
