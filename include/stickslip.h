@@ -466,7 +466,7 @@
 /// Finding: nothing is amiss with surfaces that lie over each other.
 #define STICKSLIP_FINDING_NONE 0
 
-/// Finding: no facets lie over each other. Not amiss where they meet later.
+/// Finding: no facets lie over each other, or only in front of each other, beyond search_distance. Not amiss where they meet later.
 #define STICKSLIP_FINDING_NO_OVERLAP 1
 
 /// Finding: no facets that lie over each other oppose each other: the node order of one side is reversed, or it is the
@@ -2488,7 +2488,7 @@ int32_t stickslip_interface_adjust(struct stickslip_interface *interface,
 /// length but 0 (of a sphere any). Of lines a circle is a cylinder along z or a sphere, and point[2] is 0. offsets, output (n1 or n2) [L].
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE (side, shape, radius, direction, of lines point; a node that is farther from the shape than the
-/// longest facet is long), UNSUPPORTED (a plane; facets with mid nodes, which lie on a shape by themselves; an analytic side).
+/// longest facet is long; a facet that looks into the shape's body), UNSUPPORTED (a plane; facets with mid nodes, which lie on a shape by themselves; an analytic side).
 /// Cost: O(n); allocates.
 int32_t stickslip_interface_shape_offsets(struct stickslip_interface *interface,
                                           int32_t side,

@@ -111,7 +111,7 @@ pub unsafe extern "C" fn stickslip_interface_adjust(
 /// length but 0 (of a sphere any). Of lines a circle is a cylinder along z or a sphere, and point[2] is 0. offsets, output (n1 or n2) [L].
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE (side, shape, radius, direction, of lines point; a node that is farther from the shape than the
-/// longest facet is long), UNSUPPORTED (a plane; facets with mid nodes, which lie on a shape by themselves; an analytic side).
+/// longest facet is long; a facet that looks into the shape's body), UNSUPPORTED (a plane; facets with mid nodes, which lie on a shape by themselves; an analytic side).
 /// Cost: O(n); allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_shape_offsets(

@@ -20,7 +20,7 @@ pub const STICKSLIP_COVER_SEVERAL: i32 = 3;
 
 /// Finding: nothing is amiss with surfaces that lie over each other.
 pub const STICKSLIP_FINDING_NONE: i32 = 0;
-/// Finding: no facets lie over each other. Not amiss where they meet later.
+/// Finding: no facets lie over each other, or only in front of each other, beyond search_distance. Not amiss where they meet later.
 pub const STICKSLIP_FINDING_NO_OVERLAP: i32 = 1;
 /// Finding: no facets that lie over each other oppose each other: the node order of one side is reversed, or it is the
 /// wrong face of its body.

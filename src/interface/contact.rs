@@ -402,7 +402,7 @@ impl<const N: usize> Contact<N> {
         refuse_turn(given, (x1, x2), shared, &mut self.cache.work.room.vectors)?;
         let answers = self.cache.answers();
         refuse_spin(given, x1, (&answers.sums, &answers.responses.nodes))?;
-        refuse_passed(&self.setup, self.step.pairing.filter.as_ref(), (x1, x2))?;
+        refuse_passed(given, (x1, x2))?;
         let (surfaces, options, history) = (self.setup.surfaces(), &self.setup.options, &self.step.history);
         let moved = self.spare.take().unwrap_or_else(History::empty);
         let (is_known, active, work, answers) = self.cache.leave();

@@ -68,6 +68,8 @@ int main(void) {
   for (int a = 0; a < N1; ++a) CHECK(offsets[a] > 0.0 && offsets[a] < 2e-3); /* of the plane from the sphere that it touches */
   CHECK_REFUSED(stickslip_interface_shape_offsets(s.interface, STICKSLIP_SIDE_NONMORTAR, STICKSLIP_SHAPE_SPHERE, 1.0, centre, axis,
                                                   offsets), STICKSLIP_INVALID_VALUE, "longest edge");
+  CHECK_REFUSED(stickslip_interface_shape_offsets(s.interface, STICKSLIP_SIDE_NONMORTAR, STICKSLIP_SHAPE_SPHERE, -1e3, centre, axis,
+                                                  offsets), STICKSLIP_INVALID_VALUE, "looks into the body of the shape");
   CHECK_REFUSED(stickslip_interface_shape_offsets(s.interface, 2, STICKSLIP_SHAPE_SPHERE, 1e3, centre, axis, offsets),
                 STICKSLIP_INVALID_VALUE, "side");
   CHECK_REFUSED(stickslip_interface_set_offsets(NULL, one, NULL), STICKSLIP_NULL_POINTER, "interface");

@@ -151,6 +151,49 @@ fn surfaces_that_do_not_meet_are_told_why() {
     }
 }
 
+/// Surfaces that look at each other beyond the search distance are apart; those that have passed each other are not.
+#[test]
+fn in_front_is_not_behind() {
+    let one = grid(2, 2, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
+    for (height, expected) in [
+        (-0.05, None),
+        (-0.5, Some(Finding::NoOverlap)),
+        (-30.0, Some(Finding::NoOverlap)),
+        (0.5, Some(Finding::Behind)),
+    ] {
+        let two = grid(3, 3, [-1.0, -1.0], [2.0, 2.0], height, true, Cells::Triangles);
+        let found =
+            interface(&one, &two, Options { search_distance: Some(0.1), ..options() }).report(&one.x, &two.x).unwrap();
+        assert_eq!(found.finding, expected, "{height}");
+    }
+}
+
+/// Plates that are thinner than their facets are long, with all faces on either side: those that face each other are pairs alone.
+#[test]
+fn far_sides_of_thin_plates_are_no_pairs() {
+    let flat = |mesh: Mesh, thick: f64, from: f64| Mesh {
+        x: mesh.x.iter().map(|x| Vec3::new(x.x, x.y, from + thick * x.z)).collect(),
+        facets: mesh.facets,
+    };
+    for thick in [0.01, 0.1, 0.2] {
+        for distance in [None, Some(1.0)] {
+            let upper = flat(cube(3, Vec3::new(0.2, 0.3, 0.0), 1.0), thick, 0.0);
+            let lower = flat(cube(4, Vec3::zeros(), 1.6), thick / 1.6, -thick);
+            for depth in [0.0, 0.3 * thick] {
+                let one =
+                    Mesh { x: upper.x.iter().map(|x| x - Vec3::z() * depth).collect(), facets: upper.facets.clone() };
+                let mut i = interface(&one, &lower, Options { search_distance: distance, ..options() });
+                let report = i.report(&one.x, &lower.x).unwrap();
+                for (node, x) in report.nodes.iter().zip(&upper.x) {
+                    let is_top = x.z > 0.99 * thick;
+                    assert_eq!(node.cover == Cover::None, is_top, "{thick} {distance:?} {depth}: {x:?}");
+                }
+                assert!((report.penetration - depth).abs() < ROUNDING, "{} {depth}", report.penetration);
+            }
+        }
+    }
+}
+
 /// Sides with as many nodes, far and near, also where the surfaces have moved since; never what is given in its place.
 #[test]
 fn swapped_positions_are_noticed() {

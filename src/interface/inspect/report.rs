@@ -96,7 +96,9 @@ impl Report {
         }
         let finding = match self.finding {
             None => "",
-            Some(Finding::NoOverlap) => " No facets lie over each other.",
+            Some(Finding::NoOverlap) => {
+                " No facets lie over each other, or only in front of each other, beyond search_distance."
+            }
             Some(Finding::SameWay) => {
                 " Facets lie over each other, but all of them look the same way: the node order of one side is reversed, \
                  or it is the wrong face of its body."

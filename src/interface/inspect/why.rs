@@ -15,7 +15,7 @@ use crate::mortar::Segment;
 /// How the surfaces lie, where that looks like a mistake.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Finding {
-    /// Nothing overlaps and nothing else is wrong.
+    /// Nothing overlaps, or what does is in front of each other beyond the search distance, and nothing else is wrong.
     NoOverlap,
     /// Facets lie over each other, but all of them look the same way.
     SameWay,

@@ -52,32 +52,44 @@ fn faces(
     skin: f64,
 ) -> bool {
     let gap = options.search_distance.map_or(f64::INFINITY, |distance| distance + closing);
-    let centre = plane.reference - surface.origin + plane.origin;
+    let centre = centre(plane, surface);
     let points = facet.points().iter().map(|x| x - surface.origin).chain([centre]);
     let distances = points.map(|x| surface.distance(x));
     let (low, high) = distances.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)));
     let penetration = options.search_distance.unwrap_or_else(|| facet.longest_edge()) + opening;
     let slack = skin * facet.longest_edge();
-    looks(plane, surface, least_opposition(skin)) && low - slack <= gap && high + slack >= -penetration
+    let opposes = surface.closest(centre).is_some_and(|c| plane.e.dot(&c.normal) < -least_opposition(skin));
+    opposes && low - slack <= gap && high + slack >= -penetration
 }
 
-/// Whether a facet with this plane looks at the surface, its normals opposing by more than `least`.
-fn looks(plane: &Plane, surface: &AnalyticSurface, least: f64) -> bool {
-    let centre = plane.reference - surface.origin + plane.origin;
-    surface.closest(centre).is_some_and(|c| plane.e.dot(&c.normal) < -least)
+/// A plane's centre, from the surface's origin.
+fn centre(plane: &Plane, surface: &AnalyticSurface) -> Vec3 {
+    plane.reference - surface.origin + plane.origin
 }
 
-/// The first facet that faced the surface at t_n and through which the surface has passed since: it does not look at it any
-/// more, and is in its body, or in front of it or behind it as seen along its normal. Nothing could hold it in the step
-/// that follows.
-pub fn passed(one: &Surface, surface: &AnalyticSurface, facing: &[bool], x1: &[Vec3]) -> Result<Option<usize>> {
+/// Whether a facet with this plane looks at the surface now. At the centre or on the axis nothing is nearest, which is refused
+/// where it is needed.
+fn looks(plane: &Plane, surface: &AnalyticSurface) -> bool {
+    surface.closest(centre(plane, surface)).is_none_or(|c| plane.e.dot(&c.normal) < 0.0)
+}
+
+/// The first facet that faced the surface at t_n, when the sides were at x1_n, and through which the surface has passed since: what is
+/// nearest looks the same way as the facet does, and did, and the facet is in the surface's body, or in front of it or behind it
+/// as seen along its normal. Nothing could hold it in the step that follows.
+pub fn passed(
+    one: &Surface,
+    (surface, facing): (&AnalyticSurface, &[bool]),
+    (x1_n, x1): (&[Vec3], &[Vec3]),
+) -> Result<Option<usize>> {
     let (_, opening) = offsets::reach_of(one);
     for f in (0..facing.len()).filter(|&f| facing[f]) {
         let facet = one.facet(f, x1);
-        let plane = Plane::of(&facet).map_err(one.at(f))?;
-        let (centre, margin) = (plane.reference - surface.origin + plane.origin, opening + TOUCHES * facet.longest_edge());
-        let is_in = || surface.distance(centre) < -margin || surface.is_met_along(centre, plane.e, margin);
-        if !looks(&plane, surface, 0.0) && is_in() {
+        let plane = |facet| Plane::of(facet).map_err(one.at(f));
+        let (now, then) = (plane(&facet)?, plane(&one.facet(f, x1_n))?);
+        let (centre, margin) = (centre(&now, surface), opening + TOUCHES * facet.longest_edge());
+        let same_way = |n: Vec3| now.e.dot(&n) >= 0.0 && then.e.dot(&n) >= 0.0;
+        let is_over = surface.closest(centre).is_none_or(|c| same_way(c.normal));
+        if is_over && (surface.distance(centre) < -margin || surface.is_met_along(centre, now.e, margin)) {
             return Ok(Some(f));
         }
     }
@@ -94,7 +106,7 @@ pub fn facing_now<'a>(
 ) -> impl Fn((usize, &Plane)) -> bool + 'a {
     let reach = offsets::reach_of(one);
     move |(i, plane)| {
-        let still = facing[i] && looks(plane, surface, 0.0);
+        let still = facing[i] && looks(plane, surface);
         still || options.follows_normals() && faces(&one.facet(i, x1), plane, surface, (options, reach), 0.0)
     }
 }
@@ -117,7 +129,7 @@ pub fn integrate(
     for i in 0..one.facets.len() {
         let (frame, place) = (one.frame(i, x1, &active.normals)?, active.pairs.len());
         counters.pairs_tested += 1;
-    
+
         if faces_now((i, &frame.plane)) && !one.is_idle(i) {
             let weights = match &one.parents {
                 None => analytic_weights(&frame, &surface, options.rule).map_err(one.at(i))?,

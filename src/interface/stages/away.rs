@@ -10,8 +10,7 @@ use crate::memory;
 /// Which nodes have a normal that looks away from an analytic mortar side. A gap runs along the surface's normal n. At a sharp
 /// edge one facet may face the surface while the averaged nu leans past the horizontal: nu . n < 0, and an open gap would read
 /// as a penetration. Such a node touches nothing. At the positions that nu is of, of t_n or of now; and now, for the surface may
-/// have gone past a node within the step: the gap is 0 where nu is across n, however far off the surface is. There a node in the
-/// surface's body looks away only where it looks the same way.
+/// have gone past a node within the step, and where nu and n look the same way its gap reads as a penetration, however far off it is.
 pub struct LookingAway<'a, const N: usize> {
     given: Given<'a, N>,
     surfaces: [AnalyticSurface; 2],
@@ -35,11 +34,13 @@ impl<'a, const N: usize> LookingAway<'a, N> {
     pub fn is(&self, a: usize) -> Result<bool> {
         // A normal that is undefined, or a node on the axis, is refused where it is needed.
         let Some(nu) = memory::if_accepted(self.given.normal(a))? else { return Ok(false) };
-        let [then, now] = [0, 1].map(|k| {
+        // Now it is enough that the gap is none: facets that are longer than the surface is round touch it beside their nodes.
+        for (k, least) in [LEAST_OPPOSITION, 0.0].into_iter().enumerate() {
             let closest = self.surfaces[k].closest(self.x1[k][a] - self.surfaces[k].origin);
-            closest.map(|c| (nu.dot(&c.normal), c.distance))
-        });
-        let is_away = |(along, distance): (f64, f64), in_body: f64| along < if distance > 0.0 { LEAST_OPPOSITION } else { in_body };
-        Ok(then.is_some_and(|then| is_away(then, LEAST_OPPOSITION)) || now.is_some_and(|now| is_away(now, 0.0)))
+            if closest.is_some_and(|c| nu.dot(&c.normal) < least) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 }

@@ -9,6 +9,7 @@ use crate::interface::data::pairs::PairRecord;
 use crate::interface::data::setup::Setup;
 use crate::interface::pairing::analytic;
 use crate::interface::pairing::filter::{Filter, TOUCHES};
+use crate::interface::pairing::given::Given;
 use crate::law::{NodeResponse, State};
 use crate::memory;
 
@@ -66,10 +67,12 @@ pub fn refuse_lost_contact<const N: usize>(
 }
 
 /// Refuses a commit at (x1, x2) of a step in which an analytic mortar side has passed through a facet that faced it.
-/// `filter`: that of the step.
-pub fn refuse_passed<const N: usize>(setup: &Setup<N>, filter: Option<&Filter>, (x1, x2): (&[Vec3], &[Vec3])) -> Result<()> {
-    let Some(Filter::Analytic(facing)) = filter else { return Ok(()) };
-    let Some(f) = analytic::passed(&setup.nonmortar, &setup.mortar.analytic_at(x2)?, facing, x1)? else { return Ok(()) };
+pub fn refuse_passed<const N: usize>(given: Given<N>, (x1, x2): (&[Vec3], &[Vec3])) -> Result<()> {
+    let (Some(Filter::Analytic(facing)), setup) = (&given.step.pairing.filter, given.setup) else { return Ok(()) };
+    let surface = setup.mortar.analytic_at(x2)?;
+    let Some(f) = analytic::passed(&setup.nonmortar, (&surface, facing), (&given.history().x1, x1))? else {
+        return Ok(());
+    };
     let text = text!(
         "the analytic mortar surface has passed through non-mortar facet {} within the step, so that the facet no longer looks at it; take a smaller step",
         setup.nonmortar.host_facet(f)

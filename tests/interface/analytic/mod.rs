@@ -6,6 +6,7 @@ mod frames;
 mod invariants;
 mod limits;
 mod parents;
+mod passing;
 mod tangent;
 
 use crate::support::max_abs;
