@@ -9,10 +9,11 @@ from cell import series
 # What the last facet lies on the other body with, in parts of a facet.
 COVERED = ("0.5", "1e-1", "1e-2", "1e-4", "1e-6", "1e-9", "0")
 BALANCE = 1e-9
-# The largest pressure against that of the dual basis, whose multipliers have no side lobes: at the edge it has no limit on finer meshes.
-PRESSURE = 1.6
-# A multiplier in place of the field that it stands for, at an edge: what a facet beside it feels.
-SHEAR = 0.08
+# The largest pressure against that of the dual basis. At an edge it has no limit on finer meshes, and either basis has another one;
+# multipliers at the end of a sliver were 20 to 1000 times as large.
+PRESSURE = 3
+# Displacements across the surface: either basis lets a facet beside the edge sink in by another part of its size.
+SINKS = 0.03
 
 
 def scene(covered, friction, cell="quad", n=8, **keys):
@@ -73,9 +74,10 @@ def compared(make):
                 force, reaction = solved.resultant("base"), np.array(solved.steps[-1]["reactions"]["ground"])
                 result.below("balance", np.abs(force - reaction).max() / np.linalg.norm(force), BALANCE, "statics of the table")
                 result.below("largest pressure, times the dual basis'", most(table) / most(other), PRESSURE, "no point load")
-                slid = np.abs(table["ux"] - other["ux"]).max() / np.abs(other["ux"]).max()
-                result.below("displacements along the edge", slid, SHEAR, "the dual basis")
-                result.true("iterations", solved.iterations <= 15, "Newton's method knows who is in contact")
+                across = "uz" if "model" not in scene else "uy"
+                apart = np.abs(table[across] - other[across]).max() / np.abs(other[across]).max()
+                result.below("displacements across the surface", apart, SINKS, "the dual basis")
+                result.true("iterations", result.iterations <= 15, "Newton's method knows who is in contact")
             return result
 
         return run
