@@ -622,8 +622,20 @@ module stickslip
 
     ! Splits the nodes on creases until no fan of facets around a node spans more than angle (radians):
     ! integer(c_int64_t) facet_nodes (as many as the surface has), originals(capacity), and count, the nodes of the new
-    ! surface. Both null: only count. Let all copies of a node that is split be without friction.
+    ! surface. Both null: only count. Copies that may be in contact together act without friction.
     integer(c_int32_t) function stickslip_surface_split_creases(surface, angle, index_base, capacity, facet_nodes, &
+        originals, count) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, stickslip_surface
+      type(stickslip_surface), intent(in) :: surface
+      real(c_double), value :: angle
+      integer(c_int32_t), value :: index_base
+      integer(c_int64_t), value :: capacity
+      type(c_ptr), value :: facet_nodes, originals
+      integer(c_int64_t), intent(inout) :: count
+    end function
+
+    ! The same for the lines of a plane or axisymmetric model, with two coordinates a node.
+    integer(c_int32_t) function stickslip_lines_split_creases(surface, angle, index_base, capacity, facet_nodes, &
         originals, count) bind(C)
       import :: c_double, c_int32_t, c_int64_t, c_ptr, stickslip_surface
       type(stickslip_surface), intent(in) :: surface

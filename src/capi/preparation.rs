@@ -22,9 +22,10 @@ use crate::memory::{self, Stored};
 /// originals both NULL only count is written.
 ///
 /// The new surface takes coordinates and displacement equations of the originals (several nodes with the same
-/// equations; forces add up) and multiplier equations of its own for every copy. Let all copies of a node that is split
-/// be without friction (`stickslip_interface_set_friction`): where two of them stick, six conditions meet three
-/// displacements and the matrix is singular. Tied surfaces need no split.
+/// equations; forces add up) and multiplier equations of its own for every copy, in contact or not: the number of unknowns
+/// stays. A copy that touches nothing has the row lambda = 0. By the equations the interface knows copies: one that is in
+/// contact alone has friction as any other node; in a step in which two may be in contact, they act without (where both
+/// stick, six conditions meet three displacements). Tied surfaces need no split.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE, DUPLICATE_NODE, INVALID_VALUE (the
 /// angle, the index base, or a surface that no interface takes), BUFFER_TOO_SMALL.

@@ -9,6 +9,9 @@
 static struct {
   every every;
   int64_t ld, capacity, length, n_interfaces, n, n_rows, n_integers, n_reals, commits, nodes[3];
+  stickslip_surface lines;
+  int64_t line_offsets[3], line_nodes[4];
+  double line_x[6];
   int64_t offsets1[3], shared1[6], offsets2[3], shared2[4], options_size;
   int32_t n_facet, layout, index_base, piece, which_normals, pairs, entries, side, shape;
   double scale, stiffness, rounding, angle, penetration, tolerance, radius, point[3], direction[3], neighbours[12];
@@ -92,6 +95,9 @@ FUNCTION(options_init, (a[0], (uint64_t)b.options_size), {"options", &b.every.op
 FUNCTION(last_error_padded, (a[0], b.length), {"text", b.every.last_error, LETTERS})
 FUNCTION(surface_split_creases, (a[0], b.angle, b.index_base, b.capacity, a[1], a[2], a[3]),
          {"surface", &S.nonmortar, NEEDED}, {"facet_nodes", b.every.split_nodes, NEEDED},
+         {"originals", b.every.originals, NEEDED}, {"count", &b.every.split_count, NEEDED})
+FUNCTION(lines_split_creases, (a[0], b.angle, b.index_base, b.capacity, a[1], a[2], a[3]),
+         {"surface", &b.lines, NEEDED}, {"facet_nodes", b.every.split_nodes, NEEDED},
          {"originals", b.every.originals, NEEDED}, {"count", &b.every.split_count, NEEDED})
 FUNCTION(crosspoints_find, (b.n_interfaces, a[0], a[1], a[2], a[3], b.capacity, a[4], a[5], a[6], a[7]),
          {"nonmortar_offsets", b.offsets1, NEEDED}, {"nonmortar_nodes", b.shared1, NEEDED},
@@ -228,7 +234,7 @@ static const struct {
     NAMED(pair_begin), NAMED(pair_state_gap), NAMED(pair_state_residual), NAMED(pair_state_tangent),
     NAMED(facet_dual), NAMED(pair_dual), NAMED(facet_tangent),
     NAMED(facet_normal), NAMED(node_normal), NAMED(node_respond), NAMED(node_block), NAMED(node_equilibrium),
-    NAMED(options_init), NAMED(last_error_padded), NAMED(surface_split_creases), NAMED(crosspoints_find),
+    NAMED(options_init), NAMED(last_error_padded), NAMED(surface_split_creases), NAMED(lines_split_creases), NAMED(crosspoints_find),
     NAMED(interface_create), NAMED(interface_destroy), NAMED(interface_set_friction), NAMED(interface_set_augmentation),
     NAMED(interface_set_normals), NAMED(interface_set_constraints), NAMED(interface_set_previous),
     NAMED(interface_set_committed),

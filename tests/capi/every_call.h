@@ -118,6 +118,16 @@ static inline int32_t every_split_bent(every *c) {
   return stickslip_surface_split_creases(&surface, 0.5, (int32_t)c->h.s.options.index_base, COUNT(c->originals),
                                          c->split_nodes, c->originals, &c->split_count);
 }
+/* Two lines at a right angle. */
+static inline int32_t every_lines_split(every *c) {
+  static const double corner[] = {0, 0, 1, 0, 1, -1};
+  static const int64_t offsets[] = {0, 2, 4};
+  const int64_t base = c->h.s.options.index_base, nodes[] = {base, base + 1, base + 1, base + 2};
+  const stickslip_surface surface = {.struct_size = sizeof surface, .n_nodes = 3, .n_facets = 2, .coordinates = corner,
+                                     .facet_offsets = offsets, .facet_nodes = nodes};
+  return stickslip_lines_split_creases(&surface, 0.5, (int32_t)base, COUNT(c->originals), c->split_nodes, c->originals,
+                                       &c->split_count);
+}
 static inline int32_t every_crosspoints(every *c) {
   static const int64_t offsets1[] = {0, 3, 6}, nodes1[] = {1, 2, 3, 3, 4, 5}, offsets2[] = {0, 2, 4}, nodes2[] = {7, 5, 1, 4};
   return stickslip_crosspoints_find(2, offsets1, nodes1, offsets2, nodes2, COUNT(c->shared_nodes), c->shared_nodes,
@@ -461,6 +471,7 @@ static const entry_point every_call[] = {
     {"last_error_padded", every_padded},
     {"surface_split_creases", every_split},
     {"surface_split_creases, bent", every_split_bent},
+    {"lines_split_creases", every_lines_split},
     {"crosspoints_find", every_crosspoints},
     {"interface_create", every_create},
     {"interface_initial_multipliers", every_initial},
@@ -635,10 +646,11 @@ static inline int32_t every_refusal(int k) {
       return stickslip_interface_heat_tangent_coo(NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0, 0, NULL, NULL, NULL, NULL);
     case 81: return stickslip_node_heat(NULL, 0.0, 0.0, 0.0, 1.0, 0.0, NULL, NULL, NULL);
     case 82: return stickslip_interface_commit_check(NULL, NULL, NULL, NULL, NULL);
+    case 83: return stickslip_lines_split_creases(NULL, 1.0, 0, 0, NULL, NULL, NULL);
     default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
   }
 }
-enum { REFUSALS = 84 };
+enum { REFUSALS = 85 };
 
 /* Room and sizes for the structs that come out. */
 static inline void every_room(every *c) {

@@ -68,6 +68,13 @@ static void set_up(const char *name, int32_t base) {
   b.n_facet = 4;
   b.index_base = base;
   b.angle = 0.5;
+  for (int k = 0; k < 3; ++k) b.line_offsets[k] = 2 * k;
+  for (int k = 0; k < 4; ++k) b.line_nodes[k] = base + (k + 1) / 2;
+  b.line_x[0] = b.line_x[1] = b.line_x[3] = 0; /* two lines at a right angle */
+  b.line_x[2] = b.line_x[4] = 1;
+  b.line_x[5] = -1;
+  b.lines = (stickslip_surface){.struct_size = sizeof b.lines, .n_nodes = 3, .n_facets = 2, .coordinates = b.line_x,
+                                .facet_offsets = b.line_offsets, .facet_nodes = b.line_nodes};
   b.scale = b.stiffness = 1.0;
   b.directions[0] = b.directions[4] = b.directions[8] = 1.0;
   b.dx1[0] = 1.0;

@@ -7,7 +7,8 @@ use proptest::prelude::*;
 use stickslip::error::Kind;
 use stickslip::geometry::Vec3;
 use stickslip::interface::{Contact, Form, NO_EQUATION, Normals, Options, Split, Stiffness, Surface};
-use stickslip::law::State;
+use stickslip::law::{Friction, State};
+use stickslip::line::Measure;
 use stickslip::normal::corner_normal;
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
@@ -366,15 +367,63 @@ impl Punch<3> {
     }
 }
 
-/// Where both copies of a node stick there are six rows for three displacements; without friction on the crease two.
+/// Where both copies of a node stuck there were six rows for three displacements. Copies that touch together act without friction,
+/// without being told; in law and tangent nothing changes when they are.
 #[test]
-fn copies_of_a_node_must_not_both_stick() {
+fn copies_of_a_node_do_not_both_stick() {
+    for friction in [Friction::Coulomb, Friction::Rough] {
+        let mu = if friction == Friction::Coulomb { 0.5 } else { 0.0 };
+        let mut p = Punch::<3>::new(Options { mu, friction, ..Options::new(Stiffness::Modulus(1.0)) }, false);
+        let rank = p.rank();
+        // Measured 1.3e-5: rows without friction are areas, the springs 1.
+        assert!(rank > 1e-6, "{friction:?}: {rank}");
+        if friction == Friction::Coulomb {
+            p.contact.set_friction(p.friction(mu)).unwrap();
+            assert_eq!(p.rank(), rank);
+        }
+    }
+}
+
+/// A copy that is alone in contact has friction: the channel has lost one of its faces.
+#[test]
+fn a_copy_that_touches_alone_sticks() {
+    let [x, y, z] = [Vec3::x(), Vec3::y(), Vec3::z()];
+    let mesh = corner(2, &[[y, x], [z, y]]);
+    let mut floor = corner(3, &[[x, y]]);
+    floor.x.iter_mut().for_each(|p| *p = *p * 1.3 - Vec3::new(0.1, 0.1, 0.0));
+    let split = surface("nonmortar", &mesh).split_creases(40.0 * DEGREE).unwrap();
+    let copied = apply(&mesh, &split);
+    let equations = split.originals.iter().map(|&k| [0, 1, 2].map(|i| (3 * k + i) as i64)).collect();
+    let one = Surface::new("nonmortar", copied.x.clone(), &copied.facets, equations).unwrap();
+    let two = Surface::new("mortar", floor.x.clone(), &floor.facets, vec![[NO_EQUATION; 3]; floor.x.len()]).unwrap();
+    let multipliers = numbered(3 * mesh.x.len(), copied.x.len());
     let options = Options { mu: 0.5, ..Options::new(Stiffness::Modulus(1.0)) };
-    let mut p = Punch::<3>::new(options, false);
-    assert!(p.rank() < 1e-14, "singular: {}", p.rank());
-    p.contact.set_friction(p.friction(0.5)).unwrap();
-    // Measured 1.3e-5: rows without friction are areas, the springs 1.
-    assert!(p.rank() > 1e-6, "{}", p.rank());
+    let mut contact = Contact::<3>::create(one, two, multipliers, options).unwrap();
+    let lambda: Vec<_> = (0..copied.x.len()).map(|a| -contact.normal(a).unwrap()).collect();
+    let found = contact.responses(&copied.x, &floor.x, &lambda, None).unwrap();
+    for (a, response) in found.iter().enumerate() {
+        let is_foot = contact.normal(a).unwrap().z.abs() > 0.5;
+        assert_eq!(response.state, if is_foot { State::Stick } else { State::Gap }, "node {a}");
+    }
+    assert!(split.originals.len() > mesh.x.len());
+}
+
+/// Lines are split where two of them meet at an angle, and not at the node in the middle of one.
+#[test]
+fn lines_are_split_at_their_corners() {
+    let at = |x: f64, y: f64| Vec3::new(x, y, 0.0);
+    let x = vec![at(0.0, 1.0), at(0.0, 0.0), at(0.5, 0.01), at(1.0, 0.0), at(2.0, 0.1)];
+    for (facets, nodes) in [
+        (vec![vec![0, 1], vec![1, 2], vec![2, 3], vec![3, 4]], [0, 1, 5, 2, 2, 3, 3, 4].as_slice()),
+        (vec![vec![0, 1], vec![1, 3, 2], vec![3, 4]], &[0, 1, 5, 3, 2, 3, 4]),
+    ] {
+        let surface =
+            Surface::of_lines("surface", x.clone(), &facets, vec![[NO_EQUATION; 3]; 5], Measure::Axisymmetric).unwrap();
+        let split = surface.split_creases(0.7).unwrap();
+        assert_eq!(split.facet_nodes, nodes);
+        assert_eq!(split.originals, [0, 1, 2, 3, 4, 1]);
+        assert_eq!(surface.split_creases(1.7).unwrap().originals.len(), 5);
+    }
 }
 
 #[test]
@@ -382,9 +431,8 @@ fn a_punch_with_friction_pushed_into_a_channel_corner() {
     /// Rounding of the cone, over the pressure.
     const CONE: f64 = 1e-10;
     for mu in [0.2, 2.0] {
-        let mut p = Punch::<3>::new(Options { mu, ..Options::new(Stiffness::Modulus(SPRINGS)) }, false);
+        let p = Punch::<3>::new(Options { mu, ..Options::new(Stiffness::Modulus(SPRINGS)) }, false);
         let friction = p.friction(mu);
-        p.contact.set_friction(friction.clone()).unwrap();
         let (p, lambda, iterations) = pushed(p);
         assert!(iterations <= 10, "{iterations}");
         let mut slid = 0;

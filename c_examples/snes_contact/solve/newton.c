@@ -123,6 +123,17 @@ static const char *in_words(SNESConvergedReason reason, const char *linear)
   }
 }
 
+/* Where nothing may slip, a node that pulls where it sticks and overlaps where it is open has no state. */
+static const char *of_rough(const Contact *contact)
+{
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    if (contact->interfaces[i].options.friction == STICKSLIP_FRICTION_ROUGH)
+      return ". With `law: rough` a node that would pull where it sticks, and overlap where it is open, has no state of rest; with "
+             "`law: coulomb` and `friction: 10` it has";
+  }
+  return "";
+}
+
 /* Why it ended: the library or a cell refused; loads that rounding hides, under which nodes may cycle as well; a cycle, in this attempt
  * or an earlier one; or what SNES says, with the nodes that still changed state. */
 static PetscErrorCode explain(Solve *solve, SNESConvergedReason reason)
@@ -155,8 +166,8 @@ static PetscErrorCode explain(Solve *solve, SNESConvergedReason reason)
   } else if (newton->unsound[0]) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s", newton->unsound));
   } else if (newton->cycle[0]) {
-    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s%s%s", newton->cycle,
-                            newton->stopped ? "" : "; at last: ", newton->stopped ? "" : in_words(reason, linear)));
+    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s%s%s%s", newton->cycle,
+                            newton->stopped ? "" : "; at last: ", newton->stopped ? "" : in_words(reason, linear), of_rough(contact)));
   } else if (contact->settling.unsettled[0] && reason != SNES_DIVERGED_LINEAR_SOLVE) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why),
                             "the forces balance, but the contact is not in equilibrium (%s); where augmentation_scale (with "

@@ -23,14 +23,15 @@ def split_creases(coordinates: ArrayLike, facets: Sequence, angle: float = 0.7) 
     -------
     facets : list of arrays of the new node numbers
     originals : of each new node the old one, int64. The new surface has ``coordinates[originals]`` and ``equations[originals]``;
-        its multiplier equations are new ones for every copy. Let copies be without friction (:meth:`Interface.set_friction`).
+        its multiplier equations are new ones for every copy. Copies that may be in contact together act without friction.
     """
     surface = Surface(coordinates, facets)
     struct, kept = surface._struct()
+    split = "lines_split_creases" if surface.dimension == 2 else "surface_split_creases"
     count = ffi.new("int64_t *")
-    call("surface_split_creases", struct, angle, 0, 0, ffi.NULL, ffi.NULL, count)
+    call(split, struct, angle, 0, 0, ffi.NULL, ffi.NULL, count)
     numbers, originals = np.empty_like(surface.facet_nodes), np.empty(count[0], np.int64)
-    call("surface_split_creases", struct, angle, 0, len(originals), pointer(numbers), pointer(originals), count)
+    call(split, struct, angle, 0, len(originals), pointer(numbers), pointer(originals), count)
     del kept
     return np.split(numbers, surface.facet_offsets[1:-1]), originals
 
