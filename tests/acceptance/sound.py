@@ -88,8 +88,8 @@ def planted(verdicts, driver):
     if not spoilt.program.is_file():  # a linker that wraps nothing
         return
     path = write(BLOCKS, driver.output / "blocks.yaml")
-    for ranks in (1, 2):
-        for fault in (None, *PLANTED):
+    for ranks, faults in ((1, PLANTED), (2, ("drop", "push"))):
+        for fault in (None, *faults):
             os.environ["PLANTED_FAULT"] = fault or ""
             run = spoilt.run(path, label=f"{fault}_{ranks}", ranks=ranks, expect=2 if fault else 0)
             words = PLANTED.get(fault, "")

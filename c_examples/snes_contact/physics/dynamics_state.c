@@ -68,6 +68,17 @@ static void list_vectors(Dynamics *d, Vec *vectors[N_VECTORS])
     vectors[k] = all[k];
 }
 
+/* An energy that is nothing: of forces too small to be measured by (Part.faint). Bodies at rest have that of rounding, which nothing balances. */
+static PetscReal faintest(const Physics *physics)
+{
+  PetscReal energy = 0;
+  for (PetscInt p = 0; p < physics->parts.n; p++) {
+    const Part *part = &physics->parts.part[p];
+    if (part->young > 0 && part->size > 0) energy += PetscSqr(part->faint) / (part->young * part->size);
+  }
+  return energy;
+}
+
 PetscErrorCode dynamics_create(Scene *scene, Physics *physics)
 {
   Dynamics *d = physics->dynamics;
@@ -96,7 +107,7 @@ PetscErrorCode dynamics_create(Scene *scene, Physics *physics)
                  physics->inverted);
   }
   PetscCall(dynamics_energies(physics, d->u, d->v, PETSC_FALSE, &d->last));
-  d->last.largest = d->last.kinetic + d->last.strain;
+  d->last.largest = faintest(physics) + d->last.kinetic + d->last.strain;
   d->start        = d->last;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

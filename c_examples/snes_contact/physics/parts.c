@@ -157,46 +157,6 @@ PetscErrorCode parts_add_squares(Physics *physics, Vec local, int prescribed, in
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Without multipliers among the unknowns contact forces are the forces of the bodies on one side, with their rounding: that of a
- * body which moves apart from a body at rest acts on this one, too, and it has no rounding of its own to be below. */
-static void share_noise(Parts *parts)
-{
-  for (PetscInt g = 0; g < parts->n_groups; g++) {
-    PetscReal largest = 0;
-    for (PetscInt k = parts->group_starts[g]; k < parts->group_starts[g + 1]; k++)
-      largest = PetscMax(largest, PetscSqrtReal(parts->squares[N_SQUARES * parts->grouped[k] + SQUARES_ROUNDING]));
-    for (PetscInt k = parts->group_starts[g]; k < parts->group_starts[g + 1]; k++)
-      parts->part[parts->grouped[k]].noise = PetscMax(parts->part[parts->grouped[k]].noise, largest);
-  }
-}
-
-/* At the end of an evaluation: bulk_forces() and contact_forces() have left their squares in parts->squares. */
-PetscErrorCode parts_measure(Physics *physics)
-{
-  Parts    *parts          = &physics->parts;
-  PetscReal sum[N_SQUARES] = {0};
-  PetscFunctionBegin;
-  PetscCall(parts_add_squares(physics, physics->f_external, SQUARES_LOADS, SQUARES_LOADS));
-  PetscCall(parts_add_squares(physics, physics->f_local, SQUARES_REACTIONS, SQUARES_RESIDUAL));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, parts->squares, (PetscMPIInt)(N_SQUARES * parts->n), MPIU_REAL,
-                             MPIU_SUM, PETSC_COMM_WORLD));
-  for (PetscInt p = 0; p < parts->n; p++) {
-    const PetscReal *squares = parts->squares + N_SQUARES * p;
-    for (int k = 0; k < N_SQUARES; k++)
-      sum[k] += squares[k];
-    parts->part[p].residual  = PetscSqrtReal(squares[SQUARES_RESIDUAL]);
-    parts->part[p].noise     = PetscSqrtReal(squares[SQUARES_ROUNDING]);
-    parts->part[p].loads     = PetscSqrtReal(squares[SQUARES_LOADS]);
-    parts->part[p].carried   = parts->part[p].loads + PetscSqrtReal(squares[SQUARES_CARRIED]);
-    parts->part[p].exerted   = PetscSqrtReal(squares[SQUARES_REACTIONS]) + PetscSqrtReal(squares[SQUARES_CONTACT]);
-  }
-  share_noise(parts);
-  parts_refer(physics);
-  parts->reference_force = PetscSqrtReal(sum[SQUARES_LOADS]) + PetscSqrtReal(sum[SQUARES_REACTIONS]) +
-                           PetscSqrtReal(sum[SQUARES_CONTACT]);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* "block", or "block (piece 2 of 3)" where a body is in pieces: parts are numbered as they are met */
 PetscErrorCode parts_name(const Physics *physics, PetscInt part, char name[], size_t length)
 {

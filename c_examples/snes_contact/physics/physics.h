@@ -312,18 +312,17 @@ PetscErrorCode bulk_pattern(Physics *physics, Mat matrix);                      
 /* parts.c. Between parts_label() and parts_create() the contact sets each part's `reach`. */
 PetscErrorCode parts_label(Physics *physics);
 PetscErrorCode parts_create(Physics *physics);
-PetscErrorCode parts_measure(Physics *physics);
 PetscErrorCode parts_add_squares(Physics *physics, Vec local, int prescribed, int free);
 PetscErrorCode parts_name(const Physics *physics, PetscInt part, char name[], size_t length);
 void           parts_accept(Physics *physics);
 
-/* balance.c: the references of all parts, once they are measured; do the forces on every part balance? */
+/* balance.c: at the end of an evaluation; do the forces on every part balance? */
 typedef struct {
   PetscBool balance, relative; /* relative: to rtol, so that neither noise nor atol was asked */
   PetscInt  drowned;           /* a part whose loads are below the rounding of its own stiffness: it has no answer; -1: none */
   PetscInt  hidden;            /* a part whose forces would balance if those of contact counted in full; -1: none */
 } Judgement;
-void           parts_refer(Physics *physics);
+PetscErrorCode parts_measure(Physics *physics);
 Judgement      parts_judge(const Physics *physics, PetscReal rtol, PetscReal atol, PetscBool flies);
 PetscErrorCode parts_hidden_words(const Physics *physics, PetscInt part, char why[], size_t length);
 PetscErrorCode parts_resultants(Physics *physics, char why[], size_t length); /* of each part as a whole; empty: they balance */
