@@ -70,8 +70,8 @@ PetscErrorCode unseen_check(Contact *contact, PetscReal *ratio, char why[], size
     *ratio = PetscMax(*ratio, LAG_MARGIN * lags);
     if (lags > 1)
       PetscCall(PetscSNPrintf(why, length,
-                              "converged, but %s: with normals of the step's start %.2g %% of its force is wrong. Take `normals: current`, "
-                              "which turn with it, shorter steps, or a larger `lag_max` (it is %g) if that is meant",
+                              "converged, but %s: with normals of the step's start %.2g %% of its force is wrong. Take shorter steps, "
+                              "`normals: current` where the model has them, or a larger `lag_max` (it is %g) if that is meant",
                               interface->lag.words, (double)(100 * interface->lag_force), (double)interface->lag.most));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -95,7 +95,7 @@ PetscErrorCode unseen_accept(Contact *contact)
     PetscCall(tell(contact->physics->t, &interface->overlap, OVERLAP_TOLD, remedy(interface)));
     PetscCall(tell(contact->physics->t, &interface->apart, OVERLAP_TOLD, remedy(interface)));
     PetscCall(tell(contact->physics->t, &interface->lag, LAG_TOLD,
-                   "Normals are those of the step's start: shorter steps, or `normals: current`, make it less"));
+                   "Normals are those of the step's start: shorter steps, or `normals: current` where the model has them, make it less"));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
