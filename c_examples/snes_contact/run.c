@@ -82,6 +82,7 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
   if (*done) PetscCall(remote_check(&model->physics, newton->why, sizeof(newton->why)));
   if (*done && !newton->why[0]) {
     PetscCall(slide_check(&model->contact, &newton->slid, newton->why, sizeof(newton->why)));
+    if (!newton->why[0]) PetscCall(newly_check(&model->contact, newton->why, sizeof(newton->why)));
     newton->refused_commit = (PetscBool)(newton->why[0] != 0);
   }
   if (*done && newton->why[0]) *done = PETSC_FALSE;

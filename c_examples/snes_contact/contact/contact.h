@@ -323,6 +323,7 @@ int32_t law_restore(const Interface *interface, const ContactPart *part);
 /* decision.c; `settle` when bodies are known */
 void           decision_read(Scene *scene, Interface *interface);
 PetscBool      decision_is_points(const Interface *interface);
+int32_t        decision_weights(const Interface *interface);
 PetscErrorCode decision_settle(const Contact *contact, Interface *interface);
 /* store.c: on every rank; at the place of the last evaluation, converged */
 PetscErrorCode contact_store(const Contact *contact, PetscReal *store);
@@ -427,6 +428,10 @@ PetscErrorCode contact_diagnose(const Interface *interface, PetscMPIInt rank, Co
 PetscErrorCode equilibrium_judge(Contact *contact, PetscReal rtol, PetscBool *holds, PetscBool *stuck);
 void           equilibrium_restart(Contact *contact);
 void           equilibrium_accept(Contact *contact);
+
+/* newly.c: nodes that a step newly covers; `carry` when surfaces and offsets are known */
+void           newly_carry(Scene *scene, Interface *interface);
+PetscErrorCode newly_check(const Contact *contact, char why[], size_t length);
 
 /* slide.c */
 PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t length);

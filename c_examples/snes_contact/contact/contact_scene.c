@@ -144,9 +144,8 @@ static const char *const OFFSETS[] = {"offset", "offset_at", "round"};
  * what else the scene has. */
 static PetscInt usual_weights(Scene *scene, const Physics *physics, const Interface *interface, PetscInt normals, PetscInt slip)
 {
-  if (!physics->dynamics || normals == STICKSLIP_NORMALS_CURRENT || slip == STICKSLIP_SLIP_PAPER ||
-      decision_is_points(interface))
-    return STICKSLIP_WEIGHTS_CURRENT;
+  if (decision_is_points(interface)) return decision_weights(interface);
+  if (!physics->dynamics || normals == STICKSLIP_NORMALS_CURRENT || slip == STICKSLIP_SLIP_PAPER) return STICKSLIP_WEIGHTS_CURRENT;
   for (size_t k = 0; k < sizeof(OFFSETS) / sizeof(OFFSETS[0]); k++) {
     if (scene_has(scene, interface->name, OFFSETS[k])) return STICKSLIP_WEIGHTS_CURRENT;
   }
@@ -165,7 +164,7 @@ static void read_method(Scene *scene, const Physics *physics, Interface *interfa
   static const char *const normals[]      = {"committed", "current", NULL};
   stickslip_options       *options        = &interface->options;
   const char              *name           = interface->name;
-  PetscInt  basis = STICKSLIP_BASIS_STANDARD, normal = STICKSLIP_NORMALS_COMMITTED, weight,
+  PetscInt  basis = decision_is_points(interface) ? STICKSLIP_BASIS_DUAL : STICKSLIP_BASIS_STANDARD, normal = STICKSLIP_NORMALS_COMMITTED, weight,
            slip = STICKSLIP_SLIP_OBJECTIVE, form = STICKSLIP_FORM_MULTIPLIER,
            new_contact = STICKSLIP_NEW_CONTACT_FRICTIONLESS, row_scale = STICKSLIP_ROW_SCALE_FORCE;
   PetscReal augmentation = 0, modulus = 0, distance = 0, weak_coverage = 0, turn_max = 0, coverage_min = options->coverage_min;
@@ -276,6 +275,7 @@ static PetscErrorCode read_nodes(Scene *scene, Contact *contact, Interface *inte
   interface->options.augmentation *= scale;
   interface->options.modulus *= scale;
   PetscCall(offsets_place(scene, interface));
+  newly_carry(scene, interface);
   PetscCall(contact_adjust(scene, contact->mesh, interface));
   if (interface->offsets.adjust > 0) PetscCall(surfaces_move(contact, interface));
   PetscCall(PetscFree(symmetry));
