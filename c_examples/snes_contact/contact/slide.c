@@ -70,8 +70,8 @@ static PetscErrorCode check_friction(Interface *interface, const Mesh *mesh, Pet
   PetscCall(measure_turn(interface, mesh));
   if (most > 0) *slid = PetscMax(*slid, interface->turn.amount / most);
   if (most > 0 && interface->turn.amount > most)
-    PetscCall(PetscSNPrintf(why, length, "converged, but %s: %.2g %% of what friction holds; take shorter steps, or `decision: nodes` with `normals: current`",
-                            interface->turn.words, (double)(100 * interface->turn.amount / interface->options.mu)));
+    PetscCall(PetscSNPrintf(why, length, "converged, but %s, which is %.2g %% of what friction holds: take shorter steps", interface->turn.words,
+                            (double)(100 * interface->turn.amount / interface->options.mu)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

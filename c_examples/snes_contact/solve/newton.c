@@ -234,7 +234,8 @@ static PetscErrorCode attempt(Solve *solve, int k, const Past *past, Vec x, Pets
   PetscFunctionBegin;
   PetscCall(SNESGetLineSearch(solve->snes, &line_search));
   if (!newton->fixed_line_search)
-    PetscCall(SNESLineSearchSetType(line_search, k == SOFTER && first_iterate_extrapolates(solve, past) ? SNESLINESEARCHNONE : ATTEMPTS[k].line_search));
+    PetscCall(SNESLineSearchSetType(line_search, k == SOFTER && first_iterate_extrapolates(solve, past) ? SNESLINESEARCHNONE :
+                                                                                                          ATTEMPTS[k].line_search));
   PetscCall(SNESGetTolerances(solve->snes, &atol, &rtol, &stol, &max_it, &max_f));
   opens            = (PetscBool)(k == FULL && only_opens(solve));
   newton->gives_up = (PetscBool)(k == FULL && !opens);

@@ -169,7 +169,8 @@ pub fn equilibrium<const N: usize>(
             }
             if may_turn
                 && (!rubs_at_points || responses[a].state == State::Slip)
-                && let Some(now) = memory::if_accepted(normal::nodal_normal(turned[a], a))? {
+                && let Some(now) = memory::if_accepted(normal::nodal_normal(turned[a], a))?
+            {
                 all.turn.offer(normal::angle(&given.history().normals[a], &now) * part, 1.0, a);
             }
         }
