@@ -1072,7 +1072,8 @@ typedef struct stickslip_equilibrium {
   int64_t slip_node;
   /// Output: how far the surfaces have slid since the weights in use were made: the distance along the surface of the places
   /// where a node's traction acts on the two sides, times the part that the traction is of traction_scale; the largest over
-  /// slide_scale. No violation, and 0 with weights of now, and of tied surfaces. Where weights are frozen, contact is sought
+  /// slide_scale. A node that touched at t_n and has opened by less than it has slid counts in full: what it says of its gap is of a chord.
+  /// No violation, and 0 with weights of now, and of tied surfaces. Where weights are frozen, contact is sought
   /// and forces act on the mortar side as if nothing had slid, so that a solution is wrong by about this length [L].
   double slide;
   /// Output: what to compare it with: the size of the facets around the node, however many they are. A slide of half of it is
@@ -1081,7 +1082,8 @@ typedef struct stickslip_equilibrium {
   /// Output: the node of slide.
   int64_t slide_node;
   /// Output: how far the surface has turned since weights of the reference were made: the angle between a node's normals of then and of
-  /// now, times the part that its traction is of traction_scale; the largest. No violation, and 0 with all other weights. Pressure goes
+  /// now, times the part that its traction is of traction_scale; the largest. So it is with STICKSLIP_WEIGHTS_COMMITTED of the turn since
+  /// t_n at nodes about which points slip: turn / mu is the part of their friction that is wrong. No violation, and 0 with all other weights. Pressure goes
   /// on acting along the first normals, so that this part of it acts along the surface as it is now, as a shear that friction has
   /// not allowed. Of tied surfaces offsets act along the first normals, whatever the weights: 0 without offsets. In radians [-].
   double turn;

@@ -106,6 +106,7 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
     PetscCall(slide_check(&model->contact, &newton->slid, newton->why, sizeof(newton->why)));
     if (!newton->why[0]) PetscCall(kept_check(&model->contact, newton->why, sizeof(newton->why)));
     if (!newton->why[0]) PetscCall(unseen_check(&model->contact, &newton->slid, newton->why, sizeof(newton->why)));
+    if (!newton->why[0]) PetscCall(newly_check(&model->contact, newton->why, sizeof(newton->why)));
     newton->refused_commit = (PetscBool)(newton->why[0] != 0);
   }
   if (*done && newton->why[0]) *done = PETSC_FALSE;

@@ -50,6 +50,7 @@ def points(verdicts, driver):
     ball(verdicts, driver, (5,), 1)
     corners(verdicts, driver, (10,), 2)
     ranks(verdicts, driver)
+    chosen(verdicts, driver)
     refused(verdicts, driver)
 
 
@@ -281,6 +282,16 @@ def ranks(verdicts, driver):
         for column in ("fz", "closed"):
             worst = np.abs(table[column] - one[column]).max() / np.abs(one[column]).max()
             verdicts.below(f"{n} ranks: {column}", worst, RANKS_BOUND, "one rank")
+
+
+def chosen(verdicts, driver):
+    """`decision: points` is enough: basis and weights that go with it are taken, and told."""
+    path = blocks(driver, "solid", "hex", decision="points")
+    for law, weights in (({"law": "none"}, "current"), ({"law": "coulomb", "friction": 0.3}, "committed")):
+        run = driver.run(path, *options(law), "-output_quiet", "false", label=f"chosen_{weights}")
+        of = run.summary["decisions"][NAME]
+        verdicts.true(f"points alone, {law['law']}: basis, weights", (of["basis"], of["weights"]) == ("dual", weights), f"{of}")
+        verdicts.true(f"points alone, {law['law']}: told", f"basis dual, weights {weights}" in run.text, "on the terminal")
 
 
 REFUSALS = {

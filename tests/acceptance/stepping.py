@@ -1,5 +1,6 @@
 """Checks of step control: automatic steps, exact rollback, nodes that cycle, nodes on a plane of symmetry."""
 
+import json
 import re
 
 import numpy as np
@@ -39,6 +40,10 @@ HALF_UNKNOWNS, HELD_UNKNOWNS = 632, 594
 HALF_BOUNDS = {"reference": 1e-11, "current": 1e-6}
 # Of its pairs: 0.1 / 13 by 1 / 6, of a facet of 0.2 by 1.
 SMALLEST_OVERLAP = 1 / 156
+# Leaves of these cells: more nodes open than full steps of Newton's method are allowed elsewhere. Beams but for their shear, LEAF^2 / LENGTH^2,
+# and for the tips' contact in a point.
+LEAF, LENGTH, LEAF_YOUNG, LEAF_BOUND = 0.2, 10, 1e5, 0.005
+LEAVES = {"two leaves": (40, 37), "two fine leaves": (80, 61), "three leaves": (40, 37, 43), "five leaves": (40, 37, 43, 41, 39)}
 
 
 def with_steps(driver, scene, steps):
@@ -63,6 +68,7 @@ def stepping(verdicts, driver):
     cycling(verdicts, driver)
     klarbring(verdicts, driver)
     symmetry(verdicts, driver)
+    leaves(verdicts, driver)
 
 
 def automatic(verdicts, driver):
@@ -271,3 +277,32 @@ def symmetry(verdicts, driver):
     verdicts.near("plane of symmetry: unknowns", half.summary["unknowns"], HALF_UNKNOWNS, 0, "7 multipliers less")
     held = driver.run("symmetry_plane", *HELD_IN_X, label="held_in_x")
     verdicts.near("no plane of symmetry: unknowns", held.summary["unknowns"], HELD_UNKNOWNS, 0, "7 multipliers stay")
+
+
+def stack(cells):
+    """Leaves on each other, clamped at one end, the uppermost loaded at the other one: all but the tips opens."""
+    bodies = [f"leaf{k}" for k in range(len(cells))]
+    scene = {"schema": 1, "model": "plane_strain", "bodies": bodies}
+    for k, body in enumerate(bodies):
+        scene[body] = {"type": "box", "lower": [0, LEAF * k], "upper": [LENGTH, LEAF * (k + 1)], "cells": [cells[k], 1], "cell": "quad8",
+                       "young": LEAF_YOUNG, "poisson": 0, "small_strain": True}
+    scene |= {"supports": ["clamp"], "clamp": {"surface": [f"{body}.xmin" for body in bodies], "components": ["x", "y"]},
+              "loads": ["tip"], "tip": {"surface": f"{bodies[-1]}.xmax", "traction": [0, -1]},
+              "interfaces": [f"gap{k}" for k in range(len(cells) - 1)]}
+    for k in range(len(cells) - 1):
+        scene[f"gap{k}"] = {"nonmortar": f"{bodies[k + 1]}.ymin", "mortar": f"{bodies[k]}.ymax"}
+    return scene | {"probes": ["p"], "p": {"body": bodies[-1], "point": [LENGTH, LEAF * len(cells)]}, "steps": {"count": 1},
+                    "output": {"vtu": "none"}}
+
+
+def leaves(verdicts, driver):
+    """Thin leaves open node by node, and in a shorter step as many nodes: the first attempt goes on until it is there. Each leaf bends
+    as a beam under its part of the load."""
+    driver.output.mkdir(parents=True, exist_ok=True)
+    for name, cells in LEAVES.items():
+        path = driver.output / f"{name}.yaml"
+        path.write_text(json.dumps(stack(cells)))
+        run = driver.run(path, label=name)
+        exact = -LEAF * LENGTH**3 / (3 * LEAF_YOUNG * LEAF**3 / 12) / len(cells)
+        verdicts.near(f"{name}: deflection of the tip", run.steps[-1]["probes"]["p"][1], exact, LEAF_BOUND, "beams side by side")
+        verdicts.below(f"{name}: cut-backs", run.summary["cutbacks"], 0, "a shorter step opens as many nodes")

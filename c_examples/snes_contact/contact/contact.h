@@ -342,6 +342,7 @@ int32_t law_restore(const Interface *interface, const ContactPart *part);
 /* decision.c; `settle` when bodies are known */
 void           decision_read(Scene *scene, Interface *interface);
 PetscBool      decision_is_points(const Interface *interface);
+int32_t        decision_weights(const Interface *interface);
 PetscErrorCode decision_settle(const Contact *contact, Interface *interface);
 /* store.c: on every rank; at the place of the last evaluation, converged */
 PetscErrorCode contact_store(const Contact *contact, PetscReal *store);
@@ -449,6 +450,9 @@ void           equilibrium_accept(Contact *contact);
 
 /* sound.c: at the place of the last evaluation, in equilibrium: what no contact can be, in words; empty: nothing */
 PetscErrorCode contact_sound(Contact *contact, char why[], size_t length);
+/* newly.c: nodes that a step newly covers; does the law rub? */
+PetscBool      newly_rubs(const stickslip_options *options);
+PetscErrorCode newly_check(const Contact *contact, char why[], size_t length);
 
 /* slide.c */
 PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t length);

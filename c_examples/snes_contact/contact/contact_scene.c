@@ -165,7 +165,9 @@ static void read_method(Scene *scene, Interface *interface)
   static const char *const normals[]      = {"committed", "current", NULL};
   stickslip_options       *options        = &interface->options;
   const char              *name           = interface->name;
-  PetscInt  basis = STICKSLIP_BASIS_STANDARD, normal = STICKSLIP_NORMALS_COMMITTED, weight = STICKSLIP_WEIGHTS_CURRENT,
+  const PetscBool          points         = decision_is_points(interface);
+  PetscInt  basis = points ? STICKSLIP_BASIS_DUAL : STICKSLIP_BASIS_STANDARD, normal = STICKSLIP_NORMALS_COMMITTED,
+            weight = points ? decision_weights(interface) : STICKSLIP_WEIGHTS_CURRENT,
            slip = STICKSLIP_SLIP_OBJECTIVE, form = STICKSLIP_FORM_MULTIPLIER,
            new_contact = STICKSLIP_NEW_CONTACT_FRICTIONLESS, row_scale = STICKSLIP_ROW_SCALE_FORCE;
   PetscReal augmentation = 0, modulus = 0, distance = 0, weak_coverage = options->weak_coverage, turn_max = 0, coverage_min = options->coverage_min;

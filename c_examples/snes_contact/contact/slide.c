@@ -5,6 +5,10 @@
  * next commit makes the weights anew. With `weights: reference` none does, and the run is told once. */
 #include "contact/contact.h"
 
+/* Of what friction holds, that a step may have wrong where points slip: the pressure acts along the normals of the step's start, and where
+ * these have turned by theta since, theta / mu of the friction is the pressure's. */
+static const PetscReal FRICTION_OFF = 0.02;
+
 /* Over all ranks, of the last evaluation that was judged: what a part has found, and where[0:3], the node. */
 PetscErrorCode slide_find(const Interface *interface, const Mesh *mesh, double found, int64_t node, Frozen *frozen, PetscReal where[4])
 {
@@ -58,6 +62,19 @@ static PetscBool decides_at_points_with_friction(const Interface *interface)
   return (PetscBool)(decision_is_points(interface) && interface->options.friction != STICKSLIP_FRICTION_NONE);
 }
 
+/* Where points slip: has the surface turned too far in the step? */
+static PetscErrorCode check_friction(Interface *interface, const Mesh *mesh, PetscReal *slid, char why[], size_t length)
+{
+  const PetscReal most = FRICTION_OFF * interface->options.mu;
+  PetscFunctionBegin;
+  PetscCall(measure_turn(interface, mesh));
+  if (most > 0) *slid = PetscMax(*slid, interface->turn.amount / most);
+  if (most > 0 && interface->turn.amount > most)
+    PetscCall(PetscSNPrintf(why, length, "converged, but %s, which is %.2g %% of what friction holds: take shorter steps", interface->turn.words,
+                            (double)(100 * interface->turn.amount / interface->options.mu)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* At a converged state: how far weights of the last step have slid, over what is allowed. `why`, where that is too far: the step does
  * not count. */
 PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t length)
@@ -76,6 +93,7 @@ PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t
       PetscCall(measure_turn(interface, contact->mesh));
       continue;
     }
+    if (decides_at_points_with_friction(interface)) PetscCall(check_friction(interface, contact->mesh, slid, why, length));
     *slid = PetscMax(*slid, interface->slide.amount / interface->slide.most);
     if (interface->slide.amount <= interface->slide.most) continue;
     PetscCall(PetscSNPrintf(why, length,

@@ -1,5 +1,6 @@
 /* Nodes that are hardly covered, where the scene does not say what becomes of them (`weak_coverage`): their multiplier is a point load
- * without bound at the end of a sliver, and Newton's method loses its way. Their neighbours carry them. With dual multipliers the
+ * without bound at the end of a sliver, and Newton's method loses its way. Their neighbours carry them, and those that a step newly covers
+ * under friction (newly.c). With dual multipliers the
  * library does so by itself; with standard ones it cannot, for handles that share sums do not know each other's neighbours. */
 #include "contact/contact.h"
 
@@ -7,6 +8,8 @@
  * surface. With more it is better on its own: a block with half a facet over the edge rubbed 9 per cent too much where that was carried, on
  * its own 3; with a tenth of one there is no difference, but for a pressure of three times its neighbours'. */
 static const PetscReal WEAK_COVERAGE = 0.05;
+/* None that was covered at t_n but for rounding: newly covered ones alone are carried. */
+static const PetscReal NONE = 1e-6;
 /* Covered up to this counts as wholly covered: rounding, and the rule's error on facets that are no parallelograms. */
 static const PetscReal WHOLE = 0.99;
 
@@ -44,9 +47,11 @@ PetscErrorCode weak_choose(Interface *interface, PetscBool created, PetscBool *c
   const PetscBool    plane   = (PetscBool)(interface->dimension == 2);
   PetscFunctionBegin;
   *chosen = PETSC_FALSE;
-  if (options->weak_coverage != 0 || options->multiplier_basis == STICKSLIP_BASIS_DUAL || !goes_with(interface)) PetscFunctionReturn(PETSC_SUCCESS);
+  if ((options->weak_coverage != 0 && options->weak_coverage != NONE) || options->multiplier_basis == STICKSLIP_BASIS_DUAL || !goes_with(interface))
+    PetscFunctionReturn(PETSC_SUCCESS);
   *chosen = plane;
   if (created && !plane) PetscCall(hangs_over(&interface->part, chosen)); /* in space carrying costs: parts need many rings of facets */
   if (*chosen) options->weak_coverage = WEAK_COVERAGE;
+  else if (newly_rubs(options) && options->weights == STICKSLIP_WEIGHTS_CURRENT) options->weak_coverage = NONE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

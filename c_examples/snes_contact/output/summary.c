@@ -31,7 +31,10 @@ static const char *form_name(const Output *output)
   return form == STICKSLIP_FORM_AUGMENTED ? "augmented" : "multiplier";
 }
 
-/* The interfaces that decide at points, with what the library takes their bodies' stiffness for. */
+/* What weights are called in a scene, by STICKSLIP_WEIGHTS_... */
+static const char *const WEIGHTS[] = {"current", "committed", "reference", "persistent"};
+
+/* The interfaces that decide at points, with what goes with them whether the scene has said so or not, and what the library takes their bodies' stiffness for. */
 static PetscErrorCode add_decisions(const Output *output, cJSON *root)
 {
   cJSON *all = NULL;
@@ -43,11 +46,13 @@ static PetscErrorCode add_decisions(const Output *output, cJSON *root)
     if (!all) all = cJSON_AddObjectToObject(root, "decisions");
     json = cJSON_AddObjectToObject(all, interface->name);
     cJSON_AddStringToObject(json, "decision", "points");
+    cJSON_AddStringToObject(json, "basis", "dual");
+    cJSON_AddStringToObject(json, "weights", WEIGHTS[interface->options.weights]);
     cJSON_AddNumberToObject(json, "modulus", interface->options.modulus);
     cJSON_AddStringToObject(json, "modulus_from", interface->modulus_from);
     if (!output->quiet)
-      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: decided at points, modulus %g (from %s)\n", interface->name,
-                            interface->options.modulus, interface->modulus_from));
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: decided at points, basis dual, weights %s, modulus %g (from %s)\n", interface->name,
+                            WEIGHTS[interface->options.weights], interface->options.modulus, interface->modulus_from));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

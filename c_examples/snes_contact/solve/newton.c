@@ -9,7 +9,7 @@
  *      that can take, for thin bodies open node by node, and in a shorter step in time as many nodes do;
  *      if they have thrown the bodies about, damped ones with a hundredth of the augmentation of all nodes. The default one is that of
  *      a solid body: where a thin one is curved, gaps of second order in a step of Newton's method open all of its nodes. A step after
- *      one that was solved so begins so;
+ *      one that was solved so begins so, by full steps where the start is extrapolated;
  *   2. if normals follow the motion, the same in two phases: with the normals of the start of the step, and from there with
  *      the current ones. Deep contact over facets that turn much needs it;
  *   3. if the start was extrapolated, as 1 from the start that is not (first_iterate.c);
@@ -246,7 +246,9 @@ static PetscErrorCode attempt(Solve *solve, int k, const Past *past, Vec x, Pets
 
   PetscFunctionBegin;
   PetscCall(SNESGetLineSearch(solve->snes, &line_search));
-  if (!newton->fixed_line_search) PetscCall(SNESLineSearchSetType(line_search, ATTEMPTS[k].line_search));
+  if (!newton->fixed_line_search)
+    PetscCall(SNESLineSearchSetType(line_search, k == SOFTER && first_iterate_extrapolates(solve, past) ? SNESLINESEARCHNONE :
+                                                                                                          ATTEMPTS[k].line_search));
   PetscCall(SNESGetTolerances(solve->snes, &atol, &rtol, &stol, &max_it, &max_f));
   opens            = (PetscBool)(k == FULL && only_opens(solve));
   newton->gives_up = (PetscBool)(k == FULL && !opens);
@@ -318,7 +320,7 @@ PetscErrorCode newton_solve(Solve *solve, const Past *past, Vec x, PetscBool *co
   if (newton->begins_soft) closing_first = PETSC_FALSE; /* with the augmentation of that attempt it may well not be loose */
   for (int i = 0; i < N_ATTEMPTS && !*converged; i++) {
     const int k = order(closing_first ? CLOSING : newton->begins_soft ? SOFTER : FULL, i);
-    if (k == SOFTER && !(newton->begins_soft || newton->threw || solve->contact->refusal[0])) continue;
+    if (k == SOFTER && !newton->begins_soft && (extrapolates || !(newton->threw || solve->contact->refusal[0]))) continue;
     if (k == SETTLING && !normals_follow(solve->contact)) continue;
     if (k == PLAIN && !extrapolates) continue;
     if (k == BACKTRACKING && newton->fixed_line_search) continue;

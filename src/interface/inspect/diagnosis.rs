@@ -128,7 +128,7 @@ impl Diagnosis {
             && value > TURN_TOLD
         {
             text.append(format_args!(
-                " The surface has turned by {value:.2} rad since weights of the reference were made, at node {}: this part of the \
+                " The surface has turned by {value:.2} rad since its weights were made, at node {}: this part of the \
                  pressure, or of a tied surface's offset, acts along it. Weights of now turn with it, offsets of tied surfaces do not.",
                 node + base
             ))?;

@@ -9,6 +9,7 @@
 //! Frozen weights may belong to a point no more that is in equilibrium with them: how far surfaces have slid or turned since they were made
 //! is told beside it. Where a surface has turned by theta since weights of the reference were made, a pressure p goes on acting along its
 //! first normal: p sin(theta) acts along the surface as it is now, a shear that no friction has allowed, and p (1 - cos(theta)) is missing.
+//! Where points slip with weights of t_n it is so, too, of the turn since then: what friction has allowed is off by theta / mu of itself.
 //! Both sides turning together makes no difference. Offsets of tied surfaces act along the first normals, whatever the weights.
 //!
 //! With normals of t_n a traction acts along those although the surface has turned: what the law would not allow of it if it had turned with
@@ -42,6 +43,8 @@ const NOTHING: f64 = 1e-12;
 /// What a slipping node's traction is wrong by is judged beside friction where that is more than this part of the traction, else beside all
 /// of it: torques of shafts are friction's.
 const FRICTION: f64 = 0.1;
+/// Gaps up to this part of a facet touched: where points decide a node's is a mean over parts that are open.
+const TOUCHING: f64 = 0.01;
 
 /// What the host knows of its problem.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -74,8 +77,8 @@ pub struct Equilibrium {
     pub slip: Largest,
     /// No violation: how far apart along the surface a traction acts on the two sides, where weights are frozen `[L]`.
     pub slide: Largest,
-    /// No violation: the angle by which the surface has turned where weights are of the reference, by the part that the traction there is
-    /// of the largest one; over 1.
+    /// No violation: the angle by which the surface has turned where weights are of the reference, and since t_n where points slip,
+    /// by the part that the traction there is of the largest one; over 1.
     pub turn: Largest,
     /// Of tractions, too, by the normals of now, where those of t_n are in use [F/L^2].
     pub lag: Largest,
@@ -126,10 +129,12 @@ pub fn equilibrium<const N: usize>(
     let none = Largest { value: 0.0, scale: length_scale(least(&|a| given.size(a))), node: None };
     let options = &given.setup.options;
     let may_slide = options.friction.law().opens && options.weights != Weights::Current;
-    let may_turn = given.setup.acts_along_first_normals();
+    let rubs_at_points = given.setup.has_point_friction() && options.weights == Weights::Committed;
+    let first_normals = given.setup.acts_along_first_normals();
+    let may_turn = first_normals || rubs_at_points;
     // Of normals that the host gives it knows more.
     let may_lag =
-        options.friction.law().opens && !may_turn && given.step.now.is_none() && given.setup.nodes.normals.is_none();
+        options.friction.law().opens && !first_normals && given.step.now.is_none() && given.setup.nodes.normals.is_none();
     if may_turn || may_lag {
         given.setup.nonmortar.add_normals(x1, turned)?;
     }
@@ -212,9 +217,15 @@ pub fn equilibrium<const N: usize>(
         if (may_slide || may_turn) && sum.coverage > given.least_coverage(a) && traction > 0.0 {
             let part = (lambda[a].norm() * share / traction).min(1.0);
             if may_slide {
-                all.slide.offer(slid(&given.normal(a)?, sum) * part, given.facet_size(a), a);
+                let (nu, facet) = (given.normal(a)?, given.facet_size(a));
+                let slid = slid(&nu, sum);
+                let part = if has_slid_open(&nu, sum, (slid, facet)) { 1.0 } else { part };
+                all.slide.offer(slid * part, facet, a);
             }
-            if may_turn && let Some(now) = normal_of(turned, a)? {
+            if may_turn
+                && (!rubs_at_points || responses[a].state == State::Slip)
+                && let Some(now) = normal_of(turned, a)?
+            {
                 all.turn.offer(normal::angle(&given.history().normals[a], &now) * part, 1.0, a);
             }
         }
@@ -248,6 +259,14 @@ fn tangential<const N: usize>(lambda: &SVector<f64, N>, nu: &Vec3) -> f64 {
 fn turned_back<const N: usize>(lambda: &SVector<f64, N>, now: Vec3, nu: Vec3) -> SVector<f64, N> {
     let back = normal::turned(Vec3::from_fn(|k, _| lambda[k]), now, nu);
     SVector::from_fn(|k, _| back[k])
+}
+
+/// Whether a node that touched at t_n has opened by less than it has slid: where surfaces are curved, frozen weights measure such a gap as
+/// that of a chord, and what has opened may overlap.
+#[inline(never)]
+fn has_slid_open(normal: &Vec3, sum: &NodeSums, (slid, facet): (f64, f64)) -> bool {
+    let (now, before) = (normal.dot(&sum.gap_now) / sum.coverage, normal.dot(&sum.gap_committed) / sum.coverage);
+    now > 0.0 && now < slid && before.abs() <= TOUCHING * facet
 }
 
 /// How far apart along the surface a node's traction acts on the two sides `[L]`. Weights of now keep both forces on one line;
