@@ -99,7 +99,7 @@ impl Pair {
         let motion = pair_motion((frame, segment, &DEGREE_5), &w, &nodes.traction, &mut t.forces);
         let gap = GapDerivative::Facets(motion);
         let now = PairNow { weights: &w, gap: Some(&gap), offset: None };
-        row_columns::<true, 3>(Some(&now), Some(&w), &nodes, &mut t.rows);
+        row_columns::<3>(true, (Some(&now), Some(&w)), &nodes, &mut t.rows);
         black_box(&t);
         force[0].x + t.rows[0][0][0][0]
     }

@@ -238,7 +238,7 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
             t.forces = dn.of_forces(&nodes.traction);
         }
         let now = weights.as_ref().map(|weights| PairNow { weights, gap: gap.as_ref(), offset: None });
-        row_columns::<true, 3>(now.as_ref(), before.as_ref(), &nodes, &mut t.rows);
+        row_columns::<3>(true, (now.as_ref(), before.as_ref()), &nodes, &mut t.rows);
         check_tangent(&t)?;
         write_tangent(&t, weights.as_ref(), (n1, n2), &mut k);
         Ok(())

@@ -209,7 +209,7 @@ pub unsafe extern "C" fn stickslip_pair_state_tangent(
         let motion = |segment| pair_motion((frame, segment, pair.rule), weights, &nodes.traction, &mut t.forces);
         let gap = pair.segment.as_ref().map(motion).map(GapDerivative::Facets);
         let now = gap.as_ref().map(|gap| PairNow { weights, gap: Some(gap), offset: None });
-        row_columns::<true, 3>(now.as_ref(), previous.as_ref(), &nodes, &mut t.rows);
+        row_columns::<3>(true, (now.as_ref(), previous.as_ref()), &nodes, &mut t.rows);
         check_tangent(&t)?;
         write_tangent(&t, Some(weights), (n1, n2), &mut k);
         Ok(())

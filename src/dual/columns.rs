@@ -20,7 +20,7 @@ pub type TractionDerivatives = [Columns; PAIR_NODES];
 
 /// A facet's column of a pair's slot; `mortar` holds the places of the pair's mortar nodes among those of the facet.
 /// `None`: the pair has no node there.
-pub(super) fn column(slot: usize, nodes: usize, mortar: &[usize]) -> Option<usize> {
+fn column(slot: usize, nodes: usize, mortar: &[usize]) -> Option<usize> {
     if slot < MORTAR {
         (slot < nodes).then_some(slot)
     } else {

@@ -4,15 +4,13 @@
 //! - values: [`FacetSums`] adds up the facet's pairs, [`DualBasis`] gives dual weights, heights and tractions;
 //! - derivatives: the kernels of `mortar` give those of a pair at the facet's heights and tractions, [`FacetMotion`]
 //!   makes of them the pair's share of the facet's, [`FacetColumns`] adds up the rows of the mortar nodes of all its pairs;
-//! - [`WholeFacet`] does both against an analytic surface, where gaps are vectors;
-//! - [`FullDerivatives`] has the derivatives of the dual weights themselves.
+//! - [`WholeFacet`] does both against an analytic surface, where gaps are vectors.
 //!
 //! Knows no contact law. Nothing here allocates.
 
 mod basis;
 mod columns;
 mod coverage;
-mod full;
 mod mass;
 mod motion;
 mod parents;
@@ -22,7 +20,6 @@ mod vectors;
 pub use basis::DualBasis;
 pub use columns::{Columns, FacetColumns, GROUP, TractionDerivatives, couple};
 pub use coverage::{Coverage, FADE_BAND, whole_area_derivative};
-pub use full::FullDerivatives;
 pub use mass::{Mass, SMALLEST_DETERMINANT, SMALLEST_PIVOT};
 pub use motion::{FacetMotion, PairShare};
 pub use parents::corner_shares;

@@ -73,7 +73,7 @@ impl<'a> FacetMotion<'a> {
 
     /// Dphi, the share of a pair: `of_pair` is its share of kappa, `dm` its Dm_A with respect to x_k,j.
     #[inline(never)]
-    pub(super) fn dfade(&self, of_pair: f64, dm: &[f64; MAX_CORNERS], k: usize, j: usize) -> f64 {
+    fn dfade(&self, of_pair: f64, dm: &[f64; MAX_CORNERS], k: usize, j: usize) -> f64 {
         let whole = if k < MORTAR { self.area[k][j] } else { 0.0 };
         self.basis.fade_derivative(dm, (of_pair, whole))
     }
@@ -149,6 +149,6 @@ impl<L: Lanes> Times<L> {
 }
 
 /// A pair's share of kappa.
-pub(super) fn share_of(basis: &DualBasis, weights: &PairWeights) -> f64 {
+fn share_of(basis: &DualBasis, weights: &PairWeights) -> f64 {
     (0..basis.nodes).map(|a| weights.coverage(a)).sum::<f64>() / basis.area
 }

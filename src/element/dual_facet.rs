@@ -151,7 +151,7 @@ impl<'a, P: FacetPairs> DualFacet<'a, P> {
             *rows = Default::default();
         }
         let now = gap.as_ref().map(|gap| PairNow { weights: &dual, gap: Some(gap), offset: None });
-        row_columns::<true, 3>(now.as_ref(), previous.as_ref(), self.nodes, rows);
+        row_columns::<3>(true, (now.as_ref(), previous.as_ref()), self.nodes, rows);
         (d.weights, d.dual) = (weights.ac, dual.ac);
         Ok(true)
     }

@@ -5,7 +5,7 @@
 //! - multiplier rows: Dc_A = (dc/dg_now) Dg[n_{n+1}, x_{n+1}] + (dc/dg_previous) Dg[n_n, x_{n+1}]
 //!
 //! In the multiplier form the whole tangent is the sum of these and the node blocks. A pair that
-//! overlapped only at t_n has the last term alone. `MOVES`: whether the mortar side has rows and columns; N: multiplier
+//! overlapped only at t_n has the last term alone. `moves`: whether the mortar side has rows and columns; N: multiplier
 //! components of a node.
 //!
 //! Blocks lie column by column, x_k,j with k over the pair's slots and j its components, as they are computed: in a
@@ -95,63 +95,65 @@ pub struct OffsetDerivative {
 
 /// d row / d x of a pair active now, at t_n, or both, into `rows`. Mortar slots are left as they are where that side
 /// does not move.
-pub fn row_columns<const MOVES: bool, const N: usize>(
-    now: Option<&PairNow>,
-    previous: Option<&PairWeights>,
+#[inline(never)]
+pub fn row_columns<const N: usize>(
+    moves: bool,
+    (now, previous): (Option<&PairNow>, Option<&PairWeights>),
     nodes: &FacetResponse<N>,
     rows: &mut RowColumns<N>,
 ) {
-    simd::dispatch(RowKernel::<MOVES, N> { now, previous, nodes, rows });
+    simd::dispatch(RowKernel { moves, now, previous, nodes, rows });
 }
 
 /// drow . Dg_A / dx_k of one node, for every slot k; `drow`: of the gap of now and of that of t_n's weights, which has the
 /// offsets alone.
-pub fn gap_rows<const MOVES: bool>(now: &PairNow, a: usize, drow: (&Mat3, &Mat3)) -> [Mat3; PAIR_NODES] {
-    one_node::<MOVES>(Some(now), None, a, drow)
+pub fn gap_rows(moves: bool, now: &PairNow, a: usize, drow: (&Mat3, &Mat3)) -> [Mat3; PAIR_NODES] {
+    one_node(moves, (Some(now), None), a, drow)
 }
 
 /// The same with weights held fixed.
-pub fn frozen_rows<const MOVES: bool>(weights: &PairWeights, a: usize, drow: &Mat3) -> [Mat3; PAIR_NODES] {
-    one_node::<MOVES>(None, Some(weights), a, (drow, drow))
+pub fn frozen_rows(moves: bool, weights: &PairWeights, a: usize, drow: &Mat3) -> [Mat3; PAIR_NODES] {
+    one_node(moves, (None, Some(weights)), a, (drow, drow))
 }
 
-fn one_node<const MOVES: bool>(
-    now: Option<&PairNow>,
-    previous: Option<&PairWeights>,
+fn one_node(
+    moves: bool,
+    pair: (Option<&PairNow>, Option<&PairWeights>),
     a: usize,
     drow: (&Mat3, &Mat3),
 ) -> [Mat3; PAIR_NODES] {
     let node = NodeTangent { traction: Vec3::zeros(), drow_dnow: *drow.0, drow_dprevious: *drow.1 };
     let mut rows = [[[[0.0; MAX_CORNERS]; 3]; 3]; PAIR_NODES];
-    row_columns::<MOVES, 3>(now, previous, &FacetResponse::new([&node; MAX_CORNERS]), &mut rows);
+    row_columns::<3>(moves, pair, &FacetResponse::new([&node; MAX_CORNERS]), &mut rows);
     rows.map(|columns| Mat3::from_fn(|i, j| columns[j][i][a]))
 }
 
-struct RowKernel<'a, const MOVES: bool, const N: usize> {
+struct RowKernel<'a, const N: usize> {
+    moves: bool,
     now: Option<&'a PairNow<'a>>,
     previous: Option<&'a PairWeights>,
     nodes: &'a FacetResponse<N>,
     rows: &'a mut RowColumns<N>,
 }
 
-impl<const MOVES: bool, const N: usize> Kernel for RowKernel<'_, MOVES, N> {
+impl<const N: usize> Kernel for RowKernel<'_, N> {
     type Output = ();
 
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let RowKernel { now, previous, nodes, rows } = self;
-        of_gaps::<L, MOVES, N>(now, previous, nodes, rows);
+        let RowKernel { moves, now, previous, nodes, rows } = self;
+        of_gaps::<L, N>(moves, (now, previous), nodes, rows);
         if let Some(PairNow { offset: Some(offset), .. }) = now {
-            with_offset::<L, MOVES, N>(offset, nodes, rows);
+            with_offset::<L, N>(moves, offset, nodes, rows);
         }
     }
 }
 
 /// What the pair's own gaps have.
 #[inline(always)]
-fn of_gaps<L: Lanes, const MOVES: bool, const N: usize>(
-    now: Option<&PairNow>,
-    previous: Option<&PairWeights>,
+fn of_gaps<L: Lanes, const N: usize>(
+    moves: bool,
+    (now, previous): (Option<&PairNow>, Option<&PairWeights>),
     nodes: &FacetResponse<N>,
     rows: &mut RowColumns<N>,
 ) {
@@ -159,28 +161,29 @@ fn of_gaps<L: Lanes, const MOVES: bool, const N: usize>(
         Some(PairNow { gap: Some(GapDerivative::Facets(gap)), .. }) => {
             // In one pass with what the weights of t_n add.
             let none = PairWeights::default();
-            return with_motion::<L, MOVES, N>(gap, nodes, previous.unwrap_or(&none), rows);
+            return with_motion::<L, N>(moves, gap, nodes, previous.unwrap_or(&none), rows);
         }
         Some(PairNow { gap: Some(GapDerivative::Blocks(blocks)), .. }) => {
             with_blocks::<L, N, false>(blocks, nodes, rows)
         }
         Some(PairNow { weights, gap: Some(GapDerivative::Turning(blocks)), .. }) => {
-            frozen::<L, MOVES, N, false>(weights, &nodes.now, rows);
+            frozen::<L, N, false>(moves, weights, &nodes.now, rows);
             with_blocks::<L, N, true>(blocks, nodes, rows);
         }
-        Some(PairNow { weights, gap: None, .. }) => frozen::<L, MOVES, N, false>(weights, &nodes.now, rows),
+        Some(PairNow { weights, gap: None, .. }) => frozen::<L, N, false>(moves, weights, &nodes.now, rows),
         None => {}
     }
     match (now, previous) {
-        (None, Some(weights)) => frozen::<L, MOVES, N, false>(weights, &nodes.previous, rows),
-        (_, Some(weights)) => frozen::<L, MOVES, N, true>(weights, &nodes.previous, rows),
+        (None, Some(weights)) => frozen::<L, N, false>(moves, weights, &nodes.previous, rows),
+        (_, Some(weights)) => frozen::<L, N, true>(moves, weights, &nodes.previous, rows),
         _ => {}
     }
 }
 
 /// Adds drow . nu Do. What depends on the slip alone cancels at a node with this nu, not at one that carries it.
 #[inline(always)]
-fn with_offset<L: Lanes, const MOVES: bool, const N: usize>(
+fn with_offset<L: Lanes, const N: usize>(
+    moves: bool,
     OffsetDerivative { normals, in_previous, slopes }: &OffsetDerivative,
     nodes: &FacetResponse<N>,
     rows: &mut RowColumns<N>,
@@ -194,7 +197,7 @@ fn with_offset<L: Lanes, const MOVES: bool, const N: usize>(
                 along = L::load(&nodes.previous[n][i]).mul_add(L::load(&nu[i]), along);
             }
         }
-        for k in 0..slots(MOVES) {
+        for k in 0..slots(moves) {
             for j in 0..3 {
                 rows[k][j][n] = along.mul_add(L::load(&slopes[k][j]), L::load(&rows[k][j][n])).store();
             }
@@ -204,7 +207,8 @@ fn with_offset<L: Lanes, const MOVES: bool, const N: usize>(
 
 /// drow . Dg of two facets with current weights, and with those of t_n, which are held fixed.
 #[inline(always)]
-fn with_motion<L: Lanes, const MOVES: bool, const N: usize>(
+fn with_motion<L: Lanes, const N: usize>(
+    moves: bool,
     d: &AlongNormal,
     nodes: &FacetResponse<N>,
     previous: &PairWeights,
@@ -225,7 +229,7 @@ fn with_motion<L: Lanes, const MOVES: bool, const N: usize>(
                 rows[k][j][n] = tilt.mul_add(L::splat(d.e[j]), row).store();
             }
         }
-        for k in MORTAR..slots(MOVES) {
+        for k in MORTAR..slots(moves) {
             for j in 0..3 {
                 let row = along * L::load(&d.dgamma[k][j]);
                 rows[k][j][n] = fixed[j].neg_mul_add(ac[k - MORTAR], row).store();
@@ -268,13 +272,14 @@ fn component<L: Lanes>(drow: &[[f64; MAX_CORNERS]; 3], v: &Vec3) -> L {
 
 /// drow . Dg with weights held fixed: n_AB drow and -n_AC drow; `ADD`: to what is there.
 #[inline(always)]
-fn frozen<L: Lanes, const MOVES: bool, const N: usize, const ADD: bool>(
+fn frozen<L: Lanes, const N: usize, const ADD: bool>(
+    moves: bool,
     weights: &PairWeights,
     drow: &Rows<N>,
     rows: &mut RowColumns<N>,
 ) {
     let (ab, ac) = (columns::<L>(&weights.ab), columns::<L>(&weights.ac));
-    for k in 0..slots(MOVES) {
+    for k in 0..slots(moves) {
         let weight = if k < MORTAR { ab[k] } else { -ac[k - MORTAR] };
         for n in 0..N {
             for j in 0..3 {

@@ -88,7 +88,7 @@ fn an_evaluation_stage_by_stage() {
     let pairs = Pairs::Union([&active.pairs, &step.history.pairs]);
     let mut entries = 0;
     let mut count = |_: i64, _: i64, _: f64| entries += 1;
-    let task = Task { given, normals: &[Vec3::zeros(); 4], pairs, extent: Extent::Whole, numbers: None };
+    let task = Task { given, normals: &[Vec3::zeros(); 4], pairs, extent: Extent::Whole, moves: false, numbers: None };
     blocks(task, &mut Room::default(), (&mut ByEquations::new(&setup, &mut count), None)).unwrap();
     // 12 x 12 of the forces, 3 x 16 of the multipliers in them, 12 x 12 of the rows, 4 x 9 of the nodes.
     assert_eq!(entries, 372);

@@ -154,7 +154,8 @@ impl<'a, const N: usize> Here<'a, N> {
         while work.rooms.len() < options.threads {
             work.rooms.store(ThreadRoom::default())?;
         }
-        let task = Task { given, normals, pairs: self.pairs(), extent, numbers: Some(&numbers) };
+        let moves = given.setup.effects.moves();
+        let task = Task { given, normals, pairs: self.pairs(), extent, moves, numbers: Some(&numbers) };
         let made = make(task, work.rooms)?;
         Ok((made, start.elapsed().as_secs_f64()))
     }
@@ -171,7 +172,8 @@ impl<'a, const N: usize> Here<'a, N> {
         let nodes = Nodes::of(Sides::of(given.setup));
         let (mut taker, mut constraints) = (Extras::new(given.setup), Extras::new(given.setup));
         let normals = memory::filled(Vec3::zeros(), given.nodes())?;
-        let task = Task { given, normals: &normals, pairs, extent, numbers: None };
+        let moves = given.setup.effects.moves();
+        let task = Task { given, normals: &normals, pairs, extent, moves, numbers: None };
         beyond_facets(task, &mut Room::default(), (&mut taker, (!is_whole).then_some(&mut constraints as _)))?;
         // A multiplier's block with itself is there anyway, and may be a diagonal.
         let own = |taker: Extras<N>| -> Result<Vec<(u32, u32)>> {

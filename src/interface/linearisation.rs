@@ -89,7 +89,8 @@ impl<const N: usize> Contact<N> {
         let mut constraints = constraints.map(|sink| ByEquations::new(&self.setup, sink));
         let takers: Takers<N> = (&mut taker, constraints.as_mut().map(|taker| taker as _));
         let normals = memory::filled(Vec3::zeros(), self.setup.nonmortar.len())?;
-        let task = Task { given: self.given(), normals: &normals, pairs, extent, numbers: None };
+        let moves = self.setup.effects.moves();
+        let task = Task { given: self.given(), normals: &normals, pairs, extent, moves, numbers: None };
         blocks(task, &mut Room::default(), takers).map(|_| ())
     }
 }

@@ -65,7 +65,7 @@ impl<const N: usize> Contact<N> {
         let at = self.heat_place(x, t);
         let nodes = at.flows(&rows)?;
         let active = self.cache.active().filter(|_| self.setup.options.differentiates_weights());
-        let known = (active, &self.cache.answers().responses.carried[..]);
+        let known = (active, &self.cache.answers().responses);
         tangent(&at, &mut rows, &nodes, known, Equations { temperatures, with_motion }, sink)
     }
 

@@ -153,7 +153,7 @@ fn a_facet_over_a_side_at_rest_counts_as_one_pair() {
         let (gap, n) = (GapDerivative::Facets(gap), patch.nodes);
         let now = PairNow { weights: &total, gap: Some(&gap), offset: None };
         let columns: Vec<_> = (0..3 * n).map(|column| (column / 3, column % 3)).collect();
-        let row = |a: usize| gap_rows::<false>(&now, a, (&Mat3::identity(), &Mat3::zeros()));
+        let row = |a: usize| gap_rows(false, &now, a, (&Mat3::identity(), &Mat3::zeros()));
         let gaps = columns.iter().map(|&(k, j)| (0..n).map(|a| row(a)[k].column(j).into()).collect::<Vec<Vec3>>());
         let force = |k: usize, j: usize, b: usize| Vec3::from_fn(|i, _| forces.one[k][j][i][b]);
         let of_one = columns.iter().map(|&(k, j)| (0..n).map(|b| force(k, j, b)).collect::<Vec<_>>());

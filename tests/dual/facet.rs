@@ -1,8 +1,9 @@
 //! One non-mortar facet with all of its pairs, as the stage of a facet takes it.
 
+use super::full::FullDerivatives;
 use crate::support::{name, numbers, points};
 use serde_json::Value;
-use stickslip::dual::{Columns, DualBasis, FacetColumns, FacetMotion, FacetSums, FullDerivatives, GROUP, PairShare};
+use stickslip::dual::{Columns, DualBasis, FacetColumns, FacetMotion, FacetSums, GROUP, PairShare};
 use stickslip::element::{PairNow, gap_rows, pair_force};
 use stickslip::geometry::{Facet, Mat3, Vec3};
 use stickslip::mortar::{
@@ -209,7 +210,7 @@ impl Patch {
                     let column = 3 * node + j;
                     for a in 0..self.nodes {
                         motion.gaps[column][a] +=
-                            gap_rows::<true>(&now, a, (&Mat3::identity(), &Mat3::zeros()))[slot].column(j);
+                            gap_rows(true, &now, a, (&Mat3::identity(), &Mat3::zeros()))[slot].column(j);
                         motion.diagonal[column][a] += areas[slot][j][a];
                         motion.forces[column][a] += Vec3::from_fn(|i, _| forces.one[slot][j][i][a]);
                     }

@@ -5,6 +5,7 @@ mod support;
 
 mod derivatives;
 mod facet;
+mod full;
 mod golden;
 mod identities;
 mod interfaces;

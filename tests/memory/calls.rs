@@ -318,7 +318,7 @@ fn rust_element_calls_allocate_nothing() {
                 for gap in [gap, motion] {
                     let gap = GapDerivative::Facets(gap);
                     let now = PairNow { weights: &weights, gap: Some(&gap), offset: None };
-                    row_columns::<true, 3>(Some(&now), Some(&weights), &nodes, &mut t.rows);
+                    row_columns::<3>(true, (Some(&now), Some(&weights)), &nodes, &mut t.rows);
                 }
                 let g = mortar::gap(&weights, &one, &two);
                 pair_force(&weights, &g)[0].x + t.row_x(0, 0)[(0, 0)]

@@ -1,20 +1,23 @@
 //! Derivatives of all weights of a facet of the host with its active pairs (docs/formulation.md 17.2). Forces ask for them
-//! contracted with tractions; heat has four things to contract them with, and takes them as they are.
+//! contracted with tractions; heat has four things to contract them with, and takes them as they are: the forces of tractions that are
+//! 1 at one multiplier, as the tangent has them.
 
-use crate::dual::FullDerivatives;
 use crate::element::NodeTangent;
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
-use crate::interface::data::options::{MultiplierBasis, Tangent};
+use crate::interface::data::effects::Opposite;
+use crate::interface::data::extent::Extent;
+use crate::interface::data::options::Tangent;
+use crate::interface::data::surface::Surface;
 use crate::interface::pairing::given::Given;
-use crate::interface::pairing::overlaps::FacetOverlaps;
-use crate::interface::stages::facet::dual_basis;
+use crate::interface::stages::respond::Responses;
+use crate::interface::tangent::blocks::{Numbers, Room, Task, of_facets};
 use crate::interface::tangent::derivatives::PairDerivatives;
+use crate::interface::tangent::emission::{Blocks, Directions, Emitter, MortarBlock, Place, Span, Weights};
 use crate::interface::tangent::parents::{self, ParentNumbers, ParentRoom};
 use crate::interface::tangent::union::{Pairs, UnionPair, Walk};
 use crate::memory::{self, Store};
-use crate::mortar::{MORTAR, WeightDerivatives};
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 
 /// The weights of one facet, and how they change.
@@ -48,106 +51,111 @@ impl FacetWeights {
     }
 }
 
+/// Takes blocks of forces at tractions whose components are 1 at one multiplier each, from this one on: what that multiplier's
+/// weights have.
+struct Taker<'a> {
+    to: &'a mut FacetWeights,
+    sides: [&'a Surface; 2],
+    /// The facet, its first multiplier and so many.
+    facet: usize,
+    first: usize,
+    count: usize,
+}
+
+impl Taker<'_> {
+    /// The places of a span's nodes.
+    fn places(&self, span: Span) -> ([usize; MAX_NODES], usize) {
+        let nodes = match span {
+            Span::Own => &self.sides[0].facets[self.facet],
+            Span::Mortar(j) => &self.sides[1].facets[j],
+        };
+        let (mut places, n1) = ([0; MAX_NODES], self.sides[0].len());
+        for (k, place) in places.iter_mut().enumerate().take(nodes.len) {
+            *place = if span == Span::Own { k } else { self.place(n1 + nodes.nodes[k]) };
+        }
+        (places, nodes.len)
+    }
+
+    fn place(&self, node: usize) -> usize {
+        self.to.nodes.iter().position(|known| *known == node).unwrap_or(0)
+    }
+
+    /// Adds d force of one node / d x of another, `[j][i]`.
+    fn add(&mut self, row: usize, column: usize, block: impl Fn(usize, usize) -> f64) {
+        for i in 0..self.count {
+            *self.to.slope(self.first + i, row, column) += Vec3::from_fn(|j, _| block(j, i));
+        }
+    }
+}
+
+impl<const N: usize> Blocks<N> for Taker<'_> {
+    fn forces(&mut self, rows: Span, columns: Span, values: &[[[[f64; MAX_NODES]; 3]; 3]]) {
+        let ((rows, n_rows), (columns, n_columns)) = (self.places(rows), self.places(columns));
+        for (k, b) in (0..n_columns).flat_map(|k| (0..n_rows).map(move |b| (k, b))) {
+            self.add(rows[b], columns[k], |j, i| values[k][j][i][b]);
+        }
+    }
+
+    fn mortar(&mut self, block: &MortarBlock) {
+        let n1 = self.sides[0].len();
+        for (c, &row) in block.rows.iter().enumerate() {
+            let row = self.place(n1 + row);
+            (0..block.own).for_each(|k| self.add(row, k, |j, i| block.values[k][j][i][c]));
+            for (k, &node) in block.columns.iter().enumerate() {
+                self.add(row, self.place(n1 + node), |j, i| block.values[MAX_NODES + k][j][i][c]);
+            }
+        }
+    }
+
+    fn begin(&mut self, _f: usize) {}
+    fn multipliers(&mut self, _rows: Span, _n: &[[f64; MAX_NODES]; MAX_CORNERS], _nu: &[Vec3; MAX_CORNERS]) {}
+    fn rows(&mut self, _columns: Span, _values: &[[[[f64; MAX_CORNERS]; N]; 3]]) {}
+    fn node(&mut self, _row: Place, _column: Place, _values: &[f64]) {}
+    fn multiplier_row(&mut self, _row: Place, _columns: &[(usize, Place)], _n: &Weights, _nu: &Directions) {}
+    fn diagonal(&mut self, _a: usize, _values: &[f64]) {}
+}
+
 /// Gives those of every facet with active pairs to `take`.
 pub fn each_facet<const N: usize>(
     (given, normals): (Given<N>, &[Vec3]),
-    active: &Active,
+    (active, responses): (&Active, &Responses<N>),
     take: &mut dyn FnMut(&FacetWeights) -> Result<()>,
 ) -> Result<()> {
     let mut weights = FacetWeights::default();
     if given.setup.has_parents() {
         return each_parent((given, normals), active, &mut weights, take);
     }
-    let (mut overlaps, mut first) = (FacetOverlaps::default(), 0);
+    let ((one, two), rule) = (given.setup.surfaces(), given.setup.options.rule);
+    // Heat has rows and columns of the mortar side where forces have none, too.
+    let motion = PairDerivatives { opposite: Opposite::Moves, surface: None, tangent: Tangent::Exact, rule };
+    let mut nodes = memory::filled(NodeTangent::<N>::default(), one.len())?;
+    let mut room = Room::default();
     for pairs in active.pairs.chunk_by(|p, q| p.one == q.one) {
-        of_facet(given, active, first, pairs.len(), &mut overlaps, &mut weights)?;
-        first += pairs.len();
+        let (facet, own) = (pairs[0].one, one.facets[pairs[0].one].as_slice());
+        let mortar = pairs.iter().flat_map(|pair| two.facets[pair.two].as_slice().iter().map(|c| one.len() + c));
+        weights.begin(own, own.len(), mortar)?;
+        for first in (0..own.len()).step_by(3) {
+            let count = (own.len() - first).min(3);
+            (0..count).for_each(|i| nodes[own[first + i]].traction[i] = 1.0);
+            let numbers = Numbers {
+                x1: &active.x1,
+                sums: &[],
+                responses,
+                nodes: &nodes,
+                active: Some(active),
+                motion,
+                turns: None,
+            };
+            let pairs = Pairs::Union([&active.pairs, &[]]);
+            let task = Task { given, normals, pairs, extent: Extent::Part, moves: true, numbers: Some(&numbers) };
+            let mut taker = Taker { to: &mut weights, sides: [one, two], facet, first, count };
+            let mut emitter = Emitter { given, normals, taker: &mut taker, constraints: None };
+            of_facets(task, facet..facet + 1, &mut room, None, &mut emitter)?;
+            (0..count).for_each(|i| nodes[own[first + i]].traction = Vec3::zeros());
+        }
         take(&weights)?;
     }
     Ok(())
-}
-
-/// Of the linear facet whose pairs are so many from place `first` on.
-#[inline(never)] // compiled once for all kinds of contact: it asks for nothing that N changes
-fn of_facet<const N: usize>(
-    given: Given<N>,
-    active: &Active,
-    first: usize,
-    count: usize,
-    overlaps: &mut FacetOverlaps,
-    to: &mut FacetWeights,
-) -> Result<()> {
-    let ((one, two), rule) = (given.setup.surfaces(), given.setup.options.rule);
-    let places = first..first + count;
-    let pairs = &active.pairs[first..first + count];
-    let own = one.facets[pairs[0].one].as_slice();
-    let mortar = pairs.iter().flat_map(|pair| two.facets[pair.two].as_slice().iter().map(|c| one.len() + c));
-    to.begin(own, own.len(), mortar)?;
-    overlaps.of(given, active, places)?;
-    let (m, all) = (to.nodes.len() - own.len(), to.nodes.len());
-    let mut d = WeightDerivatives::default();
-    if given.setup.options.basis == MultiplierBasis::Standard {
-        for (pair, segment) in pairs.iter().zip(&overlaps.segments) {
-            d.update(overlaps.frame(), segment, rule);
-            let other = two.facets[pair.two].as_slice();
-            let columns = columns(to, own.len(), other, one.len());
-            for (slot, column) in columns.iter().enumerate() {
-                let Some(column) = *column else { continue };
-                for a in 0..own.len() {
-                    (0..own.len()).for_each(|b| *to.slope(a, b, column) += Vec3::from(d.ab[a][b][slot]));
-                    for c in 0..other.len() {
-                        let Some(row) = columns[MORTAR + c] else { continue };
-                        *to.slope(a, row, column) -= Vec3::from(d.ac[a][c][slot]);
-                    }
-                }
-            }
-        }
-        return Ok(());
-    }
-    let integrated = &active.integrated[first..first + count];
-    let (_, basis) = dual_basis(one, pairs[0].one, (overlaps.frame(), &overlaps.segments), integrated)?;
-    let Some(basis) = basis else { return Ok(()) }; // it has faded out
-    let mut sums = memory::filled([0.0; MAX_CORNERS], m)?;
-    let place = |to: &FacetWeights, other: &[usize]| {
-        let mut places = [0; MAX_NODES];
-        let columns = columns(to, own.len(), other, one.len());
-        (0..other.len()).for_each(|c| places[c] = columns[MORTAR + c].map_or(0, |k| k - own.len()));
-        places
-    };
-    for (pair, n) in pairs.iter().zip(integrated) {
-        let other = two.facets[pair.two].as_slice();
-        let places = place(to, other);
-        for (c, b) in (0..other.len()).flat_map(|c| (0..own.len()).map(move |b| (c, b))) {
-            sums[places[c]][b] += n.ac[b][c];
-        }
-    }
-    let zero = [[0.0; MAX_CORNERS]; 3];
-    let mut diagonal = memory::filled(zero, MAX_NODES + m)?;
-    let mut off = memory::filled(zero, (MAX_NODES + m) * m)?;
-    let mut full = FullDerivatives::new(overlaps.frame(), &basis, &sums, &mut diagonal, &mut off);
-    for ((pair, segment), n) in pairs.iter().zip(&overlaps.segments).zip(integrated) {
-        d.update(overlaps.frame(), segment, rule);
-        let other = two.facets[pair.two].as_slice();
-        full.add(n, &d, &place(to, other)[..other.len()]);
-    }
-    for column in 0..all {
-        let from = if column < own.len() { column } else { MAX_NODES + column - own.len() };
-        for a in 0..own.len() {
-            *to.slope(a, a, column) = Vec3::from_fn(|j, _| diagonal[from][j][a]);
-            for c in 0..m {
-                *to.slope(a, own.len() + c, column) = Vec3::from_fn(|j, _| -off[from * m + c][j][a]);
-            }
-        }
-    }
-    Ok(())
-}
-
-/// The column of each slot of a pair.
-fn columns(of: &FacetWeights, own: usize, other: &[usize], n1: usize) -> [Option<usize>; 2 * MORTAR] {
-    std::array::from_fn(|slot| match slot.checked_sub(MORTAR) {
-        None => (slot < own).then_some(slot),
-        Some(c) => other.get(c).and_then(|node| of.nodes.iter().position(|known| *known == n1 + node)),
-    })
 }
 
 /// Of quadratic facets and lines: forces of tractions that are 1 at one multiplier, two multipliers at a time.

@@ -8,6 +8,7 @@ use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::active::Active;
 use crate::interface::data::surface::{NO_EQUATION, Surface, node_equations};
 use crate::interface::stages::carried::transfer;
+use crate::interface::stages::respond::Responses;
 use crate::interface::stages::sums::in_previous_gaps;
 use crate::interface::tangent::augmented::dtraction;
 use crate::interface::tangent::by_equations::Sink;
@@ -70,15 +71,16 @@ pub fn tangent<const N: usize>(
     at: &Place<N>,
     rows: &mut [Row],
     flows: &[(HeatNode, HeatFlow)],
-    (active, carried): (Option<&Active>, &[bool]),
+    (active, responses): (Option<&Active>, &Responses<N>),
     equations: Equations,
     sink: &mut dyn Sink,
 ) -> Result<()> {
+    let carried = &responses.carried[..];
     let (mut nodes, mut direct): (Vec<Node>, Vec<Direct>) = (memory::defaults(rows.len())?, Vec::new());
     if equations.with_motion {
         let normals = at.given.normals()?;
         match active {
-            Some(active) => direct = differentiate(at, (rows, flows), &normals, active)?,
+            Some(active) => direct = differentiate(at, (rows, flows), &normals, (active, responses))?,
             None => turn(at, rows)?,
         }
         let carries = carries(at, carried)?;
@@ -98,10 +100,10 @@ fn differentiate<const N: usize>(
     at: &Place<N>,
     (rows, flows): (&mut [Row], &[(HeatNode, HeatFlow)]),
     normals: &[Vec3],
-    active: &Active,
+    of: (&Active, &Responses<N>),
 ) -> Result<Vec<Direct>> {
     let (n1, mut all) = (at.x[0].len(), Vec::new());
-    each_facet((at.given, normals), active, &mut |facet| {
+    each_facet((at.given, normals), of, &mut |facet| {
         let n = facet.nodes.len();
         let mut direct = Direct { nodes: memory::copied(&facet.nodes)?, slopes: memory::filled(Vec3::zeros(), n * n)? };
         for (a, slopes) in facet.slopes.chunks_exact(n * n).enumerate() {

@@ -9,7 +9,7 @@ use crate::interface::data::multiplier::direction;
 use crate::interface::pairing::given::Given;
 use crate::law::NodeResponse;
 use crate::memory::Store;
-use crate::mortar::{MORTAR, PAIR_NODES, PairWeights, slots};
+use crate::mortar::{MORTAR, PAIR_NODES, PairWeights};
 
 /// dp/dg_now and dp/dg_previous of a node.
 pub fn dtraction<const N: usize>(given: Given<N>, a: usize, response: &NodeResponse<N>, nu: Vec3) -> (Mat3, Mat3) {
@@ -55,17 +55,16 @@ impl NodeCouplings {
         self.nodes.capacity() * size_of::<Coupling>()
     }
 
-    /// Adds a pair in which A is the k-th non-mortar node. `dp` = (dp/dg_now, dp/dg_previous).
-    pub fn add_pair<const MOVES: bool>(
+    /// Adds a pair in which A is the k-th non-mortar node: these first slots of it. `dp` = (dp/dg_now, dp/dg_previous).
+    pub fn add_pair(
         &mut self,
         k: usize,
-        nodes: &[Option<usize>; PAIR_NODES],
-        now: Option<&PairNow>,
-        previous: Option<&PairWeights>,
+        nodes: &[Option<usize>],
+        (now, previous): (Option<&PairNow>, Option<&PairWeights>),
         dp: (Mat3, Mat3),
     ) -> Result<()> {
-        self.add_gap::<MOVES>(k, nodes, now, previous, dp)?;
-        self.add_forces(k, &nodes[..slots(MOVES)], now)
+        self.add_gap(k, nodes, (now, previous), dp)?;
+        self.add_forces(k, nodes, now)
     }
 
     /// Adds what p_A acts on, of such a pair: these first slots of it.
@@ -81,17 +80,17 @@ impl NodeCouplings {
     }
 
     /// Adds what p_A depends on: the gap of the k-th non-mortar node of a pair.
-    pub fn add_gap<const MOVES: bool>(
+    pub fn add_gap(
         &mut self,
         k: usize,
-        nodes: &[Option<usize>; PAIR_NODES],
-        now: Option<&PairNow>,
-        previous: Option<&PairWeights>,
+        nodes: &[Option<usize>],
+        (now, previous): (Option<&PairNow>, Option<&PairWeights>),
         dp: (Mat3, Mat3),
     ) -> Result<()> {
-        let by_now = now.map(|now| gap_rows::<MOVES>(now, k, (&dp.0, &dp.1)));
-        let by_previous = previous.map(|weights| frozen_rows::<MOVES>(weights, k, &dp.1));
-        for (j, node) in nodes[..slots(MOVES)].iter().enumerate() {
+        let moves = nodes.len() == PAIR_NODES;
+        let by_now = now.map(|now| gap_rows(moves, now, k, (&dp.0, &dp.1)));
+        let by_previous = previous.map(|weights| frozen_rows(moves, weights, k, &dp.1));
+        for (j, node) in nodes.iter().enumerate() {
             let Some(node) = *node else { continue };
             let coupling = self.find(node)?;
             coupling.depends = true;

@@ -154,32 +154,26 @@ impl<const N: usize> Numbers<'_, N> {
 
 /// Adds a pair to what its nodes' tractions are coupled with; in the multiplier form they act on its nodes, those of a frame
 /// with equations too, and no gap of it moves them.
-fn couple<const MOVES: bool, const N: usize>(
+fn couple<const N: usize>(
     (given, normals): (Given<N>, &[Vec3]),
     (pair, now, previous): (&UnionPair, Option<&PairNow>, Option<&PairWeights>),
     numbers: Option<&Numbers<N>>,
     couplings: &mut [NodeCouplings],
 ) -> Result<()> {
-    let slots = pair.slots(given.setup);
+    let (slots, moves) = (pair.slots(given.setup), given.setup.effects.moves());
     let mut nodes = given.setup.nonmortar.facets[pair.one].as_slice().iter().enumerate();
     if given.setup.options.form == Form::Multiplier {
-        let moves = MOVES || given.setup.frame_moves();
-        return nodes.try_for_each(|(k, &a)| couplings[a].add_forces(k, &slots[..mortar::slots(moves)], now));
+        let slots = &slots[..mortar::slots(moves || given.setup.frame_moves())];
+        return nodes.try_for_each(|(k, &a)| couplings[a].add_forces(k, slots, now));
     }
     for (k, &a) in nodes {
         let dp = match numbers {
             Some(n) => dtraction(given, a, &n.responses.nodes[a], normals[a]),
             None => (Mat3::zeros(), Mat3::zeros()),
         };
-        couplings[a].add_pair::<MOVES>(k, &slots, now, previous, dp)?;
+        couplings[a].add_pair(k, &slots[..mortar::slots(moves)], (now, previous), dp)?;
     }
-    carried_tangent::couple::<MOVES, N>(
-        (given, normals),
-        (pair, previous),
-        now,
-        numbers.map(Numbers::answers),
-        couplings,
-    )
+    carried_tangent::couple((given, normals), pair, (now, previous), numbers.map(Numbers::answers), couplings)
 }
 
 /// What the blocks of a facet are computed in. Large, so that one serves all facets.
@@ -208,6 +202,8 @@ pub struct Task<'a, const N: usize> {
     pub pairs: Pairs<'a>,
     /// What the tangent is of.
     pub extent: Extent,
+    /// Whether the mortar side has rows and columns.
+    pub moves: bool,
     /// `None` for the pattern alone.
     pub numbers: Option<&'a Numbers<'a, N>>,
 }
@@ -258,16 +254,8 @@ fn beyond_pair<const N: usize>(
     couplings: Option<&mut [NodeCouplings]>,
     emitter: &mut Emitter<N>,
 ) -> Result<()> {
-    let (moves, carried) = (at.0.setup.effects.moves(), numbers.map(Numbers::carried));
-    match moves {
-        true => carried_tangent::rows::<true, N>((pair, previous), now, carried, emitter),
-        false => carried_tangent::rows::<false, N>((pair, previous), now, carried, emitter),
-    }
-    match couplings {
-        Some(couplings) if moves => couple::<true, N>(at, (pair, now, previous), numbers, couplings),
-        Some(couplings) => couple::<false, N>(at, (pair, now, previous), numbers, couplings),
-        None => Ok(()),
-    }
+    carried_tangent::rows(pair, (now, previous), numbers.map(Numbers::carried), emitter);
+    couplings.map_or(Ok(()), |couplings| couple(at, (pair, now, previous), numbers, couplings))
 }
 
 /// Whether the tangent has what couples all pairs of a node.
@@ -312,13 +300,13 @@ pub fn of_facets<const N: usize>(
 
 /// The blocks of the pairs of a facet.
 fn of_facet<const N: usize>(
-    Task { given, normals, pairs: all, numbers, .. }: Task<N>,
+    Task { given, normals, pairs: all, moves, numbers, .. }: Task<N>,
     pairs: &[UnionPair],
     Room { pair: t, facet, share, mortar, overlaps, sums, .. }: &mut Room<N>,
     mut couplings: Option<&mut [NodeCouplings]>,
     emitter: &mut Emitter<N>,
 ) -> Result<i64> {
-    let (options, moves) = (&given.setup.options, given.setup.effects.moves());
+    let options = &given.setup.options;
     let mut linearised = 0;
     // With a mortar side at rest all of it is linear in the weights of a facet's pairs; carried nodes and points in place
     // of overlaps take them one by one.
@@ -370,10 +358,7 @@ fn of_facet<const N: usize>(
         }
         let now = now.map(|weights| PairNow { weights, gap: gap.as_ref(), offset: offset.as_ref() });
         if let Some(nodes) = &facet_nodes {
-            match moves {
-                true => row_columns::<true, N>(now.as_ref(), previous, nodes, &mut t.rows),
-                false => row_columns::<false, N>(now.as_ref(), previous, nodes, &mut t.rows),
-            }
+            row_columns(moves, (now.as_ref(), previous), nodes, &mut t.rows);
         }
         if together {
             if let Some(turns) = turns {

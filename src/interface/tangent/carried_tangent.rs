@@ -15,13 +15,14 @@ use nalgebra::SMatrix;
 
 /// What the gaps of a pair's carried nodes add to their carriers' rows. `carried`: which nodes are; `None` for the pattern
 /// alone.
-pub fn rows<const MOVES: bool, const N: usize>(
-    (pair, previous): (&UnionPair, Option<&PairWeights>),
-    now: Option<&PairNow>,
+pub fn rows<const N: usize>(
+    pair: &UnionPair,
+    (now, previous): (Option<&PairNow>, Option<&PairWeights>),
     carried: Option<(&[bool], &[NodeTangent<N>])>,
     emitter: &mut Emitter<N>,
 ) {
     let (given, normals) = (emitter.given, emitter.normals);
+    let moves = given.setup.effects.moves();
     for (k, &a) in given.setup.nonmortar.facets[pair.one].as_slice().iter().enumerate() {
         for &(b, w) in given.carriers_of(a) {
             let mut rows: RowColumns<N> = [[[[0.0; MAX_CORNERS]; N]; 3]; PAIR_NODES];
@@ -31,10 +32,10 @@ pub fn rows<const MOVES: bool, const N: usize>(
                 share.drow_dnow = nodes[b].drow_dnow * t;
                 share.drow_dprevious = nodes[b].drow_dprevious * t;
                 let slots = std::array::from_fn(|j| if j == k { &share } else { &zero });
-                row_columns::<MOVES, N>(now, previous, &FacetResponse::new(slots), &mut rows);
+                row_columns(moves, (now, previous), &FacetResponse::new(slots), &mut rows);
             }
             let values = rows.map(|columns| columns.map(|rows| rows.map(|nodes| nodes[k])));
-            for (node, values) in pair.slots(given.setup).iter().zip(&values).take(slots(MOVES)) {
+            for (node, values) in pair.slots(given.setup).iter().zip(&values).take(slots(moves)) {
                 if let Some(node) = *node {
                     emitter.node_row(b, node, values);
                 }
@@ -58,14 +59,15 @@ pub fn multipliers<const N: usize>(a: usize, carried: bool, emitter: &mut Emitte
 }
 
 /// Augmented form: the gaps of a pair's carried nodes in their carriers' tractions.
-pub fn couple<const MOVES: bool, const N: usize>(
+pub fn couple<const N: usize>(
     (given, normals): (Given<N>, &[Vec3]),
-    (pair, previous): (&UnionPair, Option<&PairWeights>),
-    now: Option<&PairNow>,
+    pair: &UnionPair,
+    (now, previous): (Option<&PairNow>, Option<&PairWeights>),
     carried: Option<(&[bool], &[NodeResponse<N>])>,
     couplings: &mut [NodeCouplings],
 ) -> Result<()> {
-    let slots = pair.slots(given.setup);
+    let nodes = pair.slots(given.setup);
+    let nodes = &nodes[..slots(given.setup.effects.moves())];
     for (k, &a) in given.setup.nonmortar.facets[pair.one].as_slice().iter().enumerate() {
         for &(b, w) in given.carriers_of(a) {
             let mut dp = (Mat3::zeros(), Mat3::zeros());
@@ -74,7 +76,7 @@ pub fn couple<const MOVES: bool, const N: usize>(
                 let (on_now, on_previous) = dtraction(given, b, &responses[b], normals[b]);
                 dp = (on_now * t, on_previous * t);
             }
-            couplings[b].add_gap::<MOVES>(k, &slots, now, previous, dp)?;
+            couplings[b].add_gap(k, nodes, (now, previous), dp)?;
         }
     }
     Ok(())

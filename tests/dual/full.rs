@@ -2,20 +2,19 @@
 //!
 //! Da = (diag(Dm_A) - a Dm) m^-1,   Dn^d_AC = phi (Da n + a Dn)_AC + Dphi (a n)_AC,   Dn^d_AA = D(phi m_A).
 //!
-//! The tangent needs none of them (`motion.rs`): they are many, and Da is known by its products with columns of weights
-//! alone, which need no inverse.
+//! The tangent needs none of them: they are many, and Da is known by its products with columns of weights alone, which need no
+//! inverse. Here they are what it is compared with.
 
-use super::basis::DualBasis;
-use super::columns::column;
-use super::motion::{FacetMotion, share_of};
-use crate::mortar::{NonmortarFrame, PAIR_NODES, PairWeights, WeightDerivatives};
-use crate::shape::{MAX_CORNERS, MAX_NODES};
+use stickslip::dual::{DualBasis, whole_area_derivative};
+use stickslip::geometry::Vec3;
+use stickslip::mortar::{MORTAR, NonmortarFrame, PAIR_NODES, PairWeights, WeightDerivatives};
+use stickslip::shape::{MAX_CORNERS, MAX_NODES};
 
-/// Derivatives of the dual weights of a facet, in memory of the caller; columns as in [`super::FacetColumns`].
-#[derive(Debug)]
+/// Derivatives of the dual weights of a facet, in memory of the caller; columns as in `stickslip::dual::FacetColumns`.
 pub struct FullDerivatives<'a> {
     basis: &'a DualBasis,
-    motion: FacetMotion<'a>,
+    /// D|e| / Dx_k.
+    area: [Vec3; MAX_CORNERS],
     /// The facet's sums n_BC: `[C][B]`.
     weights: &'a [[f64; MAX_CORNERS]],
     /// `[column][j][A]`: d (phi m_A) / dx_j of the column's node `[L]`.
@@ -37,19 +36,22 @@ impl<'a> FullDerivatives<'a> {
         debug_assert_eq!(mortar.len(), diagonal.len() * weights.len());
         diagonal.fill([[0.0; MAX_CORNERS]; 3]);
         mortar.fill([[0.0; MAX_CORNERS]; 3]);
-        let nothing = [0.0; MAX_CORNERS];
-        let motion = FacetMotion::new(frame, basis, &nothing, &[nothing; 3]);
-        FullDerivatives { basis, motion, weights, diagonal, mortar }
+        FullDerivatives { basis, area: whole_area_derivative(frame), weights, diagonal, mortar }
     }
 
     /// Adds a pair's share; `places` are those of its mortar nodes among the facet's.
     pub fn add(&mut self, weights: &PairWeights, derivatives: &WeightDerivatives, places: &[usize]) {
-        let of_pair = share_of(self.basis, weights);
+        let of_pair = (0..self.basis.nodes).map(|a| weights.coverage(a)).sum::<f64>() / self.basis.area;
         for (slot, j) in (0..PAIR_NODES).flat_map(|slot| (0..3).map(move |j| (slot, j))) {
-            let Some(column) = column(slot, self.basis.nodes, places) else { continue };
+            let column = match slot.checked_sub(MORTAR) {
+                None => (slot < self.basis.nodes).then_some(slot),
+                Some(c) => places.get(c).map(|place| MAX_NODES + place),
+            };
+            let Some(column) = column else { continue };
             let dm = derivatives.ab.map(|row| row.map(|d| d[slot][j]));
             let areas = dm.map(|row| row.iter().sum());
-            let dphi = self.motion.dfade(of_pair, &areas, slot, j);
+            let whole = if slot < MORTAR { self.area[slot][j] } else { 0.0 };
+            let dphi = self.basis.fade_derivative(&areas, (of_pair, whole));
             for a in 0..MAX_CORNERS {
                 self.diagonal[column][j][a] += self.basis.coverage.fade * areas[a] + dphi * self.basis.areas[a];
             }
@@ -76,7 +78,7 @@ impl<'a> FullDerivatives<'a> {
     ) {
         let (basis, phi) = (self.basis, self.basis.coverage.fade);
         for (place, n) in self.weights.iter().enumerate() {
-            let x = basis.solve(n);
+            let x = basis.heights(n);
             let turned = basis.dual(&dm.map(|row| (0..MAX_NODES).map(|b| row[b] * x[b]).sum()));
             let sum = &mut self.mortar[column * self.weights.len() + place][j];
             for a in 0..MAX_CORNERS {
