@@ -331,6 +331,7 @@ PetscErrorCode summary_write(Output *output, Summary **summary, Vec last, PetscI
   cJSON_AddItemToObject((*summary)->root, "steps", (*summary)->steps);
   if (solve->held.by_contact && solve->held.by_contact->child)
     cJSON_AddItemReferenceToObject((*summary)->root, "held_by_contact", solve->held.by_contact);
+  if (solve->held.laid_down) cJSON_AddItemReferenceToObject((*summary)->root, "laid_down", solve->held.laid_down);
   if (solve->held.by_nothing.json)
     cJSON_AddItemReferenceToObject((*summary)->root, "held_by_nothing", solve->held.by_nothing.json);
   if (solve->held.by_springs.json)

@@ -4,8 +4,8 @@
  * rounding, and surfaces pass through each other. One attempt at a step (newton.c) is made for them, in which
  *   1. every displacement's diagonal entry K_ii of the tangent gains e |K_ii|. The residual has no such term, so that what
  *      converges is a solution of the problem as it is. While a body is loose, see below, e is large, and smaller
- *      after each step that meets nothing, so that the next one is longer; afterwards e is tiny, for a turn that a
- *      single node in contact leaves free;
+ *      after each step that meets nothing, so that the next one is longer. Afterwards it is in proportion to the residual: the first
+ *      nodes that touch leave turns and slides free, and a step along them would be as long as rounding makes it;
  *   2. each step is cut to the fraction that stickslip_interface_step_limit() allows: what closes ends in a slight
  *      penetration, from which the next iteration knows that it touches.
  *
@@ -13,7 +13,7 @@
  * not, to one that they hold, and there is a surface that it could come to touch. */
 #include "solve/solve.h"
 
-/* e while a body is loose, how it shrinks, to what, and otherwise: a direction of motion that is not made of rounding, and
+/* e while a body is loose, how it shrinks, to what, and the least otherwise: a direction of motion that is not made of rounding, and
  * hardly any change of the step. From 1e-13 to 1e-4 all scenes converge, at 1e-2 they do not. */
 static const PetscReal LOOSE = 1e-6, SHRINKAGE = 1e-2, LEAST = 1e-10, HELD = 1e-13;
 /* How deep a step may lead into contact, over a facet's edge, and by what factor less once a body that touched is loose
@@ -191,13 +191,31 @@ static PetscErrorCode add_rigid_stiffness(const Solve *solve, Vec diagonal)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* e while no body is loose, at the residual of now. */
+static PetscErrorCode held_shift(Solve *solve, PetscReal *shift)
+{
+  Closing  *closing = &solve->closing;
+  PetscInt  iteration;
+  PetscReal now;
+  Vec       residual;
+  PetscFunctionBegin;
+  PetscCall(SNESGetFunction(solve->snes, &residual, NULL, NULL));
+  PetscCall(VecNorm(residual, NORM_2, &now));
+  PetscCall(SNESGetIterationNumber(solve->snes, &iteration));
+  if (!iteration) closing->pressing = now;
+  *shift = now < closing->pressing ? PetscMax(HELD, LOOSE * now / closing->pressing) : LOOSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* After the tangent at u_local is assembled. */
 PetscErrorCode closing_shift(Solve *solve, Mat matrix)
 {
   Closing  *closing  = &solve->closing;
   const Vec diagonal = closing->work;
+  PetscReal held = HELD;
   PetscFunctionBegin;
   if (!closing->active) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(held_shift(solve, &held));
   PetscCall(loose_body(solve, &closing->loose));
   if (closing->loose >= 0 && closing->touched) {
     closing->depth *= SHALLOWER;
@@ -209,7 +227,7 @@ PetscErrorCode closing_shift(Solve *solve, Mat matrix)
   PetscCall(VecAbs(diagonal));
   PetscCall(VecPointwiseMult(diagonal, diagonal, closing->displacements));
   PetscCall(add_rigid_stiffness(solve, diagonal));
-  PetscCall(VecScale(diagonal, closing->loose >= 0 ? closing->shift : HELD));
+  PetscCall(VecScale(diagonal, closing->loose >= 0 ? closing->shift : held));
   PetscCall(MatDiagonalSet(matrix, diagonal, ADD_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -137,6 +137,7 @@ PetscErrorCode held_destroy(Solve *solve)
   PetscFunctionBegin;
   PetscCall(PetscFree(solve->held.loose));
   cJSON_Delete(solve->held.by_contact);
+  cJSON_Delete(solve->held.laid_down);
   cJSON_Delete(solve->held.by_nothing.json);
   cJSON_Delete(solve->held.by_springs.json);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -151,3 +151,65 @@ PetscErrorCode motions_add_contact(const Mesh *mesh, const Interface *interface,
   PetscCall(PetscFree(distinct.normals));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+/* A node that is covered less has no gap worth looking at. */
+static const PetscReal COVERED = 1e-3;
+
+/* What a node is turned about a body's middle by: its place of now, or, of a body of small strain, which feels a turn of what it was at
+ * first only, that one. */
+static void point_of(const Solve *solve, const Interface *interface, int side, PetscInt node, PetscReal x[3])
+{
+  if (solve->physics->materials[interface->body[side]].law->finite)
+    position_of(&interface->part, node, x);
+  else
+    contact_vector(interface->part.dimension, interface->part.X, node, x);
+}
+
+/* The mortar vertex nearest to a place of now. */
+static PetscInt nearest(const ContactPart *part, const PetscReal at[3])
+{
+  PetscReal best = PETSC_MAX_REAL, x[3];
+  PetscInt  node = part->n1;
+  for (PetscInt k = part->n1; k < part->n1 + part->n2; k++) {
+    PetscReal squared = 0;
+    position_of(part, k, x);
+    for (int i = 0; i < 3; i++)
+      squared += PetscSqr(x[i] - at[i]);
+    if (squared < best) best = squared, node = k;
+  }
+  return node;
+}
+
+PetscErrorCode held_gaps(const Solve *solve, const Interface *interface, Gap gaps[], PetscInt *n)
+{
+  const ContactPart *part = &interface->part;
+  const int32_t      kind = interface->options.friction;
+  double            *results;
+  PetscFunctionBegin;
+  if (kind == STICKSLIP_FRICTION_TIED) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc1(N_RESULTS * part->n1, &results));
+  PetscCall(contact_results(part, results));
+  for (PetscInt a = 0; a < part->n1; a++) {
+    const double *result = results + N_RESULTS * a;
+    Gap          *gap    = &gaps[*n];
+    PetscReal     at[3], there[3];
+    PetscInt      other;
+    if (part->owned[a] != STICKSLIP_NODE_OWN || part->removed[a] == 7 || result[RESULT_COVERAGE] < COVERED || !part->n2) continue;
+    position_of(part, a, at);
+    other = nearest(part, at);
+    position_of(part, other, there);
+    gap->part[0] = part->piece[a];
+    gap->part[1] = part->piece[other];
+    point_of(solve, interface, 0, a, gap->at[0]);
+    point_of(solve, interface, 1, other, gap->at[1]);
+    for (int i = 0; i < 3; i++) {
+      gap->at[1][i] += at[i] - there[i];
+      gap->normal[i] = result[RESULT_NORMAL + i];
+    }
+    gap->gap      = result[RESULT_GAP] / result[RESULT_COVERAGE];
+    gap->friction = kind == STICKSLIP_FRICTION_COULOMB ? interface->options.mu : 0;
+    (*n)++;
+  }
+  PetscCall(PetscFree(results));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

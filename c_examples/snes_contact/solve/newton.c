@@ -10,23 +10,25 @@
  *      if they have thrown the bodies about, damped ones with a hundredth of the augmentation of all nodes. The default one is that of
  *      a solid body: where a thin one is curved, gaps of second order in a step of Newton's method open all of its nodes. A step after
  *      one that was solved so begins so, by full steps where the start is extrapolated;
- *   2. if normals follow the motion, the same in two phases: with the normals of the start of the step, and from there with
+ *   2. in the first step, the same without the slight compression that nodes which touch start with (contact_start()): where another
+ *      interface presses its body away from them, it makes them stick;
+ *   3. if normals follow the motion, the same in two phases: with the normals of the start of the step, and from there with
  *      the current ones. Deep contact over facets that turn much needs it;
- *   3. if the start was extrapolated, as 1 from the start that is not (first_iterate.c);
- *   4. backtracking; a cycle divides it, too;
- *   5. if there were cycles, full steps; a cycle multiplies it by 100;
- *   6. where the supports leave a body free to move, the attempt of closing.c: the first one, if such a body is loose
+ *   4. if the start was extrapolated, as 1 from the start that is not (first_iterate.c);
+ *   5. backtracking; a cycle divides it, too;
+ *   6. if there were cycles, full steps; a cycle multiplies it by 100;
+ *   7. where the supports leave a body free to move, the attempt of closing.c: the first one, if such a body is loose
  *      at the start of the step, else the last;
- *   7. where friction holds such a body, in two phases: under friction that lets nothing slip, and from there under the scene's.
+ *   8. where friction holds such a body, in two phases: under friction that lets nothing slip, and from there under the scene's.
  *      Where all nodes that touch are taken to slip at the start, nothing else has a stiffness along the surface;
- *   8. if all fail, the caller takes a shorter step in time.
+ *   9. if all fail, the caller takes a shorter step in time.
  * Where contact alone holds a body, Newton's method may throw it out of contact, and there it is in equilibrium. So an
  * attempt after which a body is loose that was not loose before counts if no other one converges with it in contact. One that
  * moves a body further than anything could have pushed it there, without any force, counts for nothing (thrown.c).
  * An extrapolated start may lie beyond the friction cone although the answer does not. Full steps fail there, and
- * damped ones lead to another equilibrium, in which the nodes have slid: hence 3, and before 4. From the start of 3
+ * damped ones lead to another equilibrium, in which the nodes have slid: hence 4, and before 5. From the start of 4
  * damped steps crawl where bodies strain much (rounded sliders of the press fit: 15 cut-backs instead of 4). So the
- * others have the first start again. Where the user chose a line search it serves in all but 4, which is left out.
+ * others have the first start again. Where the user chose a line search it serves in all but 5, which is left out.
  * Converged is what has converged with the scene's own augmentation: the multiplier rows are forces of the
  * augmentation, and would look small with a small one. (Tried as well: a step damped by 1/2, 1/4, 1/8. It ends the
  * cycles of fewer scenes, and later.)
@@ -39,7 +41,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { FULL = 0, SOFTER = 1, SETTLING = 2, PLAIN = 3, BACKTRACKING = 4, LARGER = 5, CLOSING = 6, STICKING = 7, N_ATTEMPTS = 8 };
+enum { FULL, SOFTER, BARE, SETTLING, PLAIN, BACKTRACKING, LARGER, CLOSING, STICKING, N_ATTEMPTS };
 /* Of the augmentation of all nodes in one attempt: what the default is too large by for facets three times as long as the body is thick,
  * which bend like the third power of that. */
 static const PetscReal SOFT = 0.01;
@@ -53,6 +55,7 @@ static const struct {
   PetscReal          factor; /* of the augmentation of nodes that cycle */
 } ATTEMPTS[N_ATTEMPTS] = {[FULL]         = {SNESLINESEARCHNONE, 0.01},
                          [SOFTER]       = {SNESLINESEARCHBT, 0.01},
+                         [BARE]         = {SNESLINESEARCHNONE, 0.01},
                          [SETTLING]     = {SNESLINESEARCHNONE, 0.01},
                          [PLAIN]        = {SNESLINESEARCHNONE, 0.01},
                          [BACKTRACKING] = {SNESLINESEARCHBT, 0.01},
@@ -300,11 +303,22 @@ static int order(int first, int i)
   return i > first ? i : i ? i - 1 : first;
 }
 
-PetscErrorCode newton_solve(Solve *solve, const Past *past, Vec x, PetscBool *converged)
+/* x without multipliers; `any`: it had some */
+static PetscErrorCode make_bare(const Solve *solve, Vec x, PetscBool *any)
+{
+  PetscReal before, after;
+  PetscFunctionBegin;
+  PetscCall(VecNorm(x, NORM_1, &before));
+  PetscCall(VecPointwiseMult(x, x, solve->closing.displacements));
+  PetscCall(VecNorm(x, NORM_1, &after));
+  *any = (PetscBool)(after != before);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode newton_solve(Solve *solve, Past *past, Vec x, PetscBool *converged)
 {
   Newton         *newton       = &solve->newton;
-  const PetscBool extrapolates = first_iterate_extrapolates(solve, past);
-  PetscBool       closing_first, loose, at_start = PETSC_TRUE;
+  PetscBool       extrapolates, closing_first, laid, loose, at_start = PETSC_TRUE;
   int             lost = -1; /* the first attempt that let a body go */
   Vec             r;
 
@@ -315,12 +329,15 @@ PetscErrorCode newton_solve(Solve *solve, const Past *past, Vec x, PetscBool *co
   PetscCall(progress_begin(solve));
   *converged         = PETSC_FALSE;
   closing_begin(solve, PETSC_FALSE);
+  PetscCall(settle(solve, past, &laid));
+  extrapolates = first_iterate_extrapolates(solve, past);
   PetscCall(first_iterate(solve, past, extrapolates, x));
   PetscCall(closing_needed(solve, x, &closing_first));
-  if (newton->begins_soft) closing_first = PETSC_FALSE; /* with the augmentation of that attempt it may well not be loose */
+  closing_first = (PetscBool)((closing_first && !newton->begins_soft) || laid); /* softer than it is, contact may well hold the body */
   for (int i = 0; i < N_ATTEMPTS && !*converged; i++) {
     const int k = order(closing_first ? CLOSING : newton->begins_soft ? SOFTER : FULL, i);
     if (k == SOFTER && !newton->begins_soft && (extrapolates || !(newton->threw || solve->contact->refusal[0]))) continue;
+    if (k == BARE && solve->contact->n_commits) continue;
     if (k == SETTLING && !normals_follow(solve->contact)) continue;
     if (k == PLAIN && !extrapolates) continue;
     if (k == BACKTRACKING && newton->fixed_line_search) continue;
@@ -330,6 +347,11 @@ PetscErrorCode newton_solve(Solve *solve, const Past *past, Vec x, PetscBool *co
     if (solve->closing.away[0] && !solve->closing.met) break; /* whatever the attempt, nothing stops that body */
     if (!at_start) PetscCall(first_iterate(solve, past, (PetscBool)(extrapolates && k != PLAIN), x));
     at_start = PETSC_FALSE;
+    if (k == BARE) {
+      PetscBool any;
+      PetscCall(make_bare(solve, x, &any));
+      if (!any) continue;
+    }
     PetscCall(attempt(solve, k, past, x, converged));
     if (*converged) newton->begins_soft = (PetscBool)(k == SOFTER);
     if (!*converged || closing_first || k == CLOSING) continue;
@@ -340,7 +362,9 @@ PetscErrorCode newton_solve(Solve *solve, const Past *past, Vec x, PetscBool *co
     PetscCall(solver_restore_pattern(solve));
   }
   if (!*converged && lost >= 0) {
+    PetscBool any;
     PetscCall(first_iterate(solve, past, (PetscBool)(extrapolates && lost != PLAIN), x));
+    if (lost == BARE) PetscCall(make_bare(solve, x, &any));
     PetscCall(attempt(solve, lost, past, x, converged));
   }
   if (!*converged) PetscFunctionReturn(PETSC_SUCCESS);

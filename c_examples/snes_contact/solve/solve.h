@@ -68,6 +68,7 @@ typedef struct {
   PetscReal  shift;         /* of the matrix, over its diagonal, while a body is loose */
   PetscInt   n_uncut;       /* steps since the last one that was cut */
   PetscReal  depth;         /* how far a step may lead into contact, over a facet's edge */
+  PetscReal  pressing;      /* the residual that the attempt started with */
   PetscReal  travelled;     /* by steps that met nothing, since the last one that was cut */
   PetscBool  touched, met;  /* no body was loose at the last tangent, at any of this attempt */
   PetscInt   loose;         /* the body that was, at the last tangent; -1: none */
@@ -88,6 +89,7 @@ typedef struct {
 typedef struct {
   PetscBool    *loose;      /* per part: its supports do not hold it */
   struct cJSON *by_contact; /* the motions in words of what contact holds */
+  struct cJSON *laid_down;  /* which bodies a step began with moving to where they touch (settle.c); NULL: none */
   HeldFinding   by_nothing, by_springs; /* what nothing holds; what springs hold so softly that it drifts (held_softly.c) */
 } Held;
 
@@ -197,7 +199,7 @@ PetscErrorCode turn_parts(Solve *solve, PetscReal t0, Vec u, PetscBool *turned);
 /* newton.c: creates SNES and all that belongs to it, too */
 PetscErrorCode newton_create(Solve *solve);
 PetscErrorCode newton_destroy(Solve *solve);
-PetscErrorCode newton_solve(Solve *solve, const Past *past, Vec x, PetscBool *converged);
+PetscErrorCode newton_solve(Solve *solve, Past *past, Vec x, PetscBool *converged);
 
 /* closing.c: bodies that contact alone holds and that do not touch yet */
 PetscErrorCode closing_create(Solve *solve);
@@ -208,6 +210,9 @@ PetscErrorCode closing_needed(Solve *solve, Vec start, PetscBool *needed);
 void           closing_begin(Solve *solve, PetscBool active);
 PetscBool      closing_settled(const Solve *solve);
 PetscErrorCode closing_shift(Solve *solve, Mat matrix);
+
+/* settle.c: where friction must hold what touches nothing at the start of a step, moves that start, `past`, to where it touches */
+PetscErrorCode settle(Solve *solve, Past *past, PetscBool *laid);
 
 /* held.c: which bodies contact alone must hold, as a sentence; which ones nothing holds */
 PetscErrorCode held_create(Solve *solve); /* and again, with closing_find(), where other supports hold from now on */

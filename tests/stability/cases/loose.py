@@ -1,0 +1,81 @@
+"""Pins in rings with clearance, pulled by force: gaps close in a chain, from the lug by the pin to the fork, and the pin is loose
+in directions that the normals of contact never hold: along its axis and about it, which friction holds once it is pressed."""
+
+import math
+
+import host
+from cell import series
+
+CLEARANCES = ("1e-4", "1e-3", "3e-3", "1e-2", "2e-2", "4e-2")
+CELLS = (12, 14, 16, 20, 24, 28)  # round the pin
+# Directions in which a support holds the one end of the pin; the rest is loose.
+HELD = {"x, y, z": "xyz", "y, z": "yz", "x, y": "xy", "z": "z", "y": "y", "nothing": ""}
+LOAD = 20.0
+# A step ends at 1e-11 of the forces, in each of a few bodies.
+BALANCE = 1e-9
+# Of all steps; gaps that close one by one, by hand, take as many.
+ITERATIONS, CUTBACKS = 80, 2
+
+
+def ring(inner, outer, low, high, around, young, layers=2):
+    box = {"type": "box", "polar": True, "lower": [inner, 0, low], "upper": [outer, 360, high], "cells": [2, around, layers]}
+    return box | {"young": young, "poisson": 0.3}
+
+
+def joint(clearance=0.01, around=16, held=""):
+    hole = 1 + clearance
+    scene = {
+        "schema": 1,
+        "bodies": ["lug", "one", "two", "pin"],
+        "lug": ring(hole, 2, -0.5, 0.5, around, 70000),
+        "one": ring(hole, 2, 0.55, 1.1, around, 70000),
+        "two": ring(hole, 2, -1.1, -0.55, around, 70000),
+        "pin": ring(0.4, 1, -1.2, 1.2, around, 210000, layers=6),
+        "supports": ["guide", "root"],
+        "guide": {"surface": "lug.xmax", "components": ["y", "z"]},
+        "root": {"surface": "one.xmax", "components": ["x", "y", "z"]},
+        "loads": ["pull"],
+        "pull": {"surface": "lug.xmax", "traction": [LOAD, 0, 0]},
+        "interfaces": ["inner", "upper", "lower"],
+        "steps": {"count": 2},
+        "output": {"vtu": "none", "csv": "last"},
+    }
+    scene["supports"].append("rest")
+    scene["rest"] = scene["root"] | {"surface": "two.xmax"}
+    for name, body in (("inner", "lug"), ("upper", "one"), ("lower", "two")):
+        scene[name] = {"nonmortar": f"{body}.xmin", "mortar": "pin.xmax", "friction": 0.2}
+    if held:
+        scene["supports"].append("pinned")
+        scene["pinned"] = {"surface": "pin.zmax", "components": list(held)}
+    return scene
+
+
+def load(around):
+    """On the facets of the lug's outside, which is 1 high."""
+    return LOAD * around * 4 * math.sin(math.pi / around)
+
+
+def pulled(around=16, **more):
+    """All that pulls the lug reaches the fork or the support of the pin; what is loose is told."""
+
+    def run(context):
+        scene = joint(around=around, **more)
+        found = context.solve(scene)
+        result = host.outcome(found)
+        if result.refusal is not None:
+            return result
+        carried = -sum(force[0] for name, force in found.steps[-1]["reactions"].items() if name != "guide")
+        result.below("reaction", abs(carried / load(around) - 1), BALANCE, "the load")
+        result.below("iterations", sum(step["newton_iterations"] for step in found.steps), ITERATIONS, "of all steps")
+        result.below("cut-backs", found.summary["cutbacks"], CUTBACKS, "of all steps")
+        result.true("what is loose is told", "lug" in found.summary["held_by_contact"], "the lug, which only the pin stops")
+        return result
+
+    return run
+
+
+def cells():
+    yield from series("pin joint, clearance", CLEARANCES, lambda text: pulled(clearance=float(text)), quick=("1e-4",))
+    yield from series("pin joint, facets round the pin", CELLS, lambda n: pulled(around=n), quick=(20,))
+    loose = lambda name: pulled(held=HELD[name])
+    yield from series("pin joint, what holds the pin's end", tuple(HELD), loose)
