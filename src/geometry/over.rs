@@ -19,6 +19,7 @@ pub struct Over {
 
 impl Over {
     /// `facet` seen along the normal of `plane`.
+    #[inline(never)] // it is met three times
     pub fn new(facet: &Facet, plane: &Plane) -> Over {
         let projection = Projection::new(facet, plane);
         Over { projection, map: BilinearMap::new(&projection) }
@@ -30,6 +31,7 @@ impl Over {
     }
 
     /// How far x lies over it, if it does, and its functions there.
+    #[inline(never)]
     pub fn height(&self, x: Vec3, plane: &Plane) -> Option<(f64, [f64; MAX_CORNERS])> {
         let (p, at) = (&self.projection, x - plane.reference - plane.origin);
         let place = self.map.inverse([plane.t1.dot(&at), plane.t2.dot(&at)]);

@@ -98,6 +98,15 @@ impl Contact<1> {
     }
 }
 
+/// What a commit would put in place.
+struct Next {
+    step: Step,
+    /// Whether the pairs are those where it begins.
+    active: bool,
+    /// The points that are to remember what those of the last step have answered.
+    points: Option<Points>,
+}
+
 /// A step that begins.
 fn begun<const N: usize>(setup: &Setup<N>, pairing: Pairing, history: History) -> Step {
     Step { history, pairing, normals: setup.options.normals, now: None, room: NormalsAt::default() }
@@ -362,9 +371,9 @@ impl<const N: usize> Contact<N> {
         lambda: &[SVector<f64, N>],
         sums: Option<&[NodeSums]>,
     ) -> Result<()> {
-        let (next, active, points) = self.next((x1, x2), lambda, sums)?;
-        let old = self.put_in_place(next.pairing, next.history, active);
-        if let Some(points) = points {
+        let next = self.next(x1, x2, lambda, sums)?;
+        let old = self.put_in_place(next.step.pairing, next.step.history, next.active);
+        if let Some(points) = next.points {
             self.cache.settle_points(points);
         }
         self.spare = self.rollback.replace(old);
@@ -379,19 +388,19 @@ impl<const N: usize> Contact<N> {
         lambda: &[SVector<f64, N>],
         sums: Option<&[NodeSums]>,
     ) -> Result<()> {
-        let (next, ..) = self.next((x1, x2), lambda, sums)?;
-        self.spare = Some(next.history);
+        self.spare = Some(self.next(x1, x2, lambda, sums)?.step.history);
         Ok(())
     }
 
-    /// The step that follows a converged one, with whether the pairs are those where it begins, and the points that are to remember what
-    /// those of this step have answered at these multipliers.
+    /// The step that follows a converged one.
+    #[inline(never)] // for a commit and its check
     fn next(
         &mut self,
-        (x1, x2): (&[Vec3], &[Vec3]),
+        x1: &[Vec3],
+        x2: &[Vec3],
         lambda: &[SVector<f64, N>],
         sums: Option<&[NodeSums]>,
-    ) -> Result<(Step, bool, Option<Points>)> {
+    ) -> Result<Next> {
         let (extent, shared) = (Extent::of(sums), sums.is_some());
         if self.step.normals != self.setup.options.normals {
             let text = "commit of a step that was solved with the normals of its start alone: with STICKSLIP_NORMALS_CURRENT these are for the first phase; call stickslip_interface_use_normals(..., STICKSLIP_NORMALS_CURRENT) and solve on";
@@ -432,12 +441,12 @@ impl<const N: usize> Contact<N> {
         }
         let mut next = self.begin(Pairing::new(&self.setup, new.filter, &new.history)?, new.history);
         if !remembers {
-            return Ok((next, new.active, None));
+            return Ok(Next { step: next, active: new.active, points: None });
         }
         let (points, x1) = (&self.cache.answers().responses.points, &self.step.history.x1);
         let mut anew = Points::default();
         next.history.states = anew.remember(Given { setup: &self.setup, step: &next }, lambda, (points, x1))?;
-        Ok((next, new.active, Some(anew)))
+        Ok(Next { step: next, active: new.active, points: Some(anew) })
     }
 
     /// A step that begins, to be looked at before it is put in place.

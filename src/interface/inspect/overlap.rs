@@ -30,6 +30,7 @@ fn scale(size: f64, scales: &Scales) -> f64 {
 
 /// The largest overlap, and the largest distance at which a node `presses`, of what was looked at. `scales`: with the largest traction;
 /// `rounding` does not count.
+#[inline(never)]
 pub fn largest(
     one: &Surface,
     seen: &Seen,

@@ -56,7 +56,8 @@ pub struct Seen {
 }
 
 /// How far a facet may lie off the round surface that it stands for `[L]`: outside of the body where that is hollow, inside where it is round.
-fn sagittas(surface: &Surface, normals: &[Vec3], x: &[Vec3], (f, facet): (usize, &Facet)) -> [f64; 2] {
+#[inline(never)] // it is asked for three times
+fn sagittas(surface: &Surface, normals: &[Vec3], x: &[Vec3], f: usize, facet: &Facet) -> [f64; 2] {
     let part = if surface.lines().is_some() { SAGITTA_OF_LINE } else { SAGITTA } * facet.longest_edge();
     let mut most = [0.0_f64; 2];
     for &g in surface.neighbours[f].iter().filter(|&&g| g != NO_FACET) {
@@ -71,6 +72,7 @@ fn sagittas(surface: &Surface, normals: &[Vec3], x: &[Vec3], (f, facet): (usize,
 }
 
 /// Looks at every node of facets that are not idle.
+#[inline(never)] // then it is compiled once, not in each of its callers
 pub fn look((one, two): (&Surface, &Surface), (x1, x2): (&[Vec3], &[Vec3]), work: &mut Work) -> Result<()> {
     let Work { tree, room, .. } = work;
     let Seen { nearest, front, normals } = &mut room.seen;
@@ -85,7 +87,7 @@ pub fn look((one, two): (&Surface, &Surface), (x1, x2): (&[Vec3], &[Vec3]), work
         let facet = one.facet(i, x1);
         let (plane, edge) = (Plane::of(&facet).map_err(one.at(i))?, facet.longest_edge());
         let (nodes, rows) = (one.facets[i].as_slice(), one.rows(i).as_slice());
-        let own = sagittas(one, &normals[0], x1, (i, &facet));
+        let own = sagittas(one, &normals[0], x1, i, &facet);
         let mut meet = |place: usize, found: Nearest| {
             nearest[place].offer(found);
             if found.opposes {
@@ -120,7 +122,7 @@ pub fn look((one, two): (&Surface, &Surface), (x1, x2): (&[Vec3], &[Vec3]), work
             }
             let other = two.facet(j, x2);
             let (over, length) = (Over::new(&other, &plane), other.longest_edge());
-            let others = sagittas(two, &normals[1], x2, (j, &other));
+            let others = sagittas(two, &normals[1], x2, j, &other);
             let sagittas = [own[0] + others[0], own[1] + others[1]];
             let found = |gap, node| Nearest {
                 gap,
