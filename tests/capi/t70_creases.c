@@ -45,6 +45,22 @@ static void numbering(void) {
   CHECK(count == NODES && memcmp(nodes, facets, sizeof nodes) == 0);
 }
 
+/* Two lines at a right angle, in place: the second one gets a node of its own. */
+static void lines(void) {
+  const double corner[] = {0, 0, 1, 0, 1, -1};
+  const int64_t starts[] = {0, 2, 4};
+  int64_t of[] = {0, 1, 1, 2}, originals[4], count = 0;
+  const stickslip_surface s = {.struct_size = sizeof s, .n_nodes = 3, .n_facets = 2, .coordinates = corner,
+                               .facet_offsets = starts, .facet_nodes = of};
+  CHECK_OK(stickslip_lines_split_creases(&s, 1.6, 0, 0, NULL, NULL, &count));
+  CHECK(count == 3);
+  CHECK_OK(stickslip_lines_split_creases(&s, 0.7, 0, 4, of, originals, &count));
+  const int64_t expected[] = {0, 1, 3, 2}, copied[] = {0, 1, 2, 1};
+  CHECK(count == 4 && memcmp(of, expected, sizeof of) == 0 && memcmp(originals, copied, sizeof copied) == 0);
+  /* A surface has three coordinates a node and facets of three nodes at least. */
+  CHECK_REFUSED(stickslip_surface_split_creases(&s, 0.7, 0, 4, of, originals, &count), STICKSLIP_INVALID_SIZE, "facet_offsets");
+}
+
 static void refusals(void) {
   stickslip_surface s = surface_of(punch, NODES, facets, 2);
   int64_t count, nodes[8], originals[SPLIT];
@@ -142,6 +158,7 @@ static void contact(void) {
 
 int main(void) {
   numbering();
+  lines();
   refusals();
   contact();
   return 0;

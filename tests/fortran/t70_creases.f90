@@ -22,6 +22,7 @@ program t70_creases
   integer(c_int64_t), parameter :: EXPECTED(8) = [1, 2, 3, 4, 7, 5, 6, 8], COPIED(DOUBLED) = [1, 2, 3, 4, 5, 6, 1, 2]
 
   call check_numbering()
+  call check_lines()
   call check_refusals()
   call check_contact()
 
@@ -56,6 +57,18 @@ contains
     s = surface_of(punch, WHOLE, facets)
     CHECK_OK(stickslip_surface_split_creases(s, BLUNT, 1, count, c_loc(nodes), c_loc(originals), count))
     CHECK(count == WHOLE .and. all(nodes == facets))
+  end subroutine
+
+  ! Two lines at a right angle, from 1.
+  subroutine check_lines()
+    real(c_double), target :: corner(2, 3) = reshape([0d0, 0d0, 1d0, 0d0, 1d0, -1d0], [2, 3])
+    integer(c_int64_t), target :: starts(3) = [0, 2, 4], lines(4) = [1, 2, 2, 3], originals(4)
+    integer(c_int64_t) :: count
+    type(stickslip_surface) :: s
+    s = stickslip_surface(n_nodes=3, n_facets=2, coordinates=c_loc(corner), facet_offsets=c_loc(starts), &
+        facet_nodes=c_loc(lines))
+    CHECK_OK(stickslip_lines_split_creases(s, SHARP, 1, 4_c_int64_t, c_loc(lines), c_loc(originals), count))
+    CHECK(count == 4 .and. all(lines == [1, 2, 4, 3]) .and. all(originals == [1, 2, 3, 2]))
   end subroutine
 
   subroutine check_refusals()

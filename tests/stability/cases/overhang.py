@@ -6,14 +6,17 @@ import numpy as np
 import host
 from cell import series
 
-# What the last facet lies on the other body with, in parts of a facet.
-COVERED = ("0.5", "1e-1", "1e-2", "1e-4", "1e-6", "1e-9", "0")
+# What the last facet lies on the other body with, in parts of a facet. (With half of one its node has a multiplier of its own in the
+# standard basis and is carried in the dual one: another discretisation.)
+COVERED = ("0.2", "1e-1", "1e-2", "1e-4", "1e-6", "1e-9", "0")
 BALANCE = 1e-9
 # The largest pressure against that of the dual basis. At an edge it has no limit on finer meshes, and either basis has another one;
 # multipliers at the end of a sliver were 20 to 1000 times as large.
 PRESSURE = 3
 # Displacements across the surface: either basis lets a facet beside the edge sink in by another part of its size.
 SINKS = 0.03
+# Of one step; in space with friction at a corner, too, where nodes slip in directions that they have to find.
+ITERATIONS = {2: 15, 3: 20}
 
 
 def scene(covered, friction, cell="quad", n=8, **keys):
@@ -77,7 +80,7 @@ def compared(make):
                 across = "uz" if "model" not in scene else "uy"
                 apart = np.abs(table[across] - other[across]).max() / np.abs(other[across]).max()
                 result.below("displacements across the surface", apart, SINKS, "the dual basis")
-                result.true("iterations", result.iterations <= 15, "Newton's method knows who is in contact")
+                result.true("iterations", result.iterations <= ITERATIONS[2 if "model" in scene else 3], "Newton's method knows who is in contact")
             return result
 
         return run
