@@ -129,9 +129,17 @@ def rollback(verdicts, driver):
     verdicts.near(f"{label}: steps with equal residuals, reactions, works", sum(equal), len(equal), 0, "bit by bit")
 
 
+# In this form no row is left out.
+AUGMENTED = ("-upper_form", "augmented", "-lower_form", "augmented")
+
+
 def singular(verdicts, driver):
     """A matrix that cannot be factorised fails the attempt, and nothing else: the next one has a matrix of its own."""
-    run = driver.run("two_floors")
+    at_once = driver.run("two_floors", label="two_floors_at_once")
+    verdicts.below("two floors: cut-backs", at_once.summary["cutbacks"], 0, "of two rows that are the same one is left out")
+    verdicts.near("two floors: force of the upper one", abs(at_once.resultant("upper")[2]), FLOOR_FORCE, SAME_ANSWER, "E u / L")
+    verdicts.below("two floors: force of the lower one", np.abs(at_once.resultant("lower")).max(), 0, "the block ends above it")
+    run = driver.run("two_floors", *AUGMENTED, label="two_floors")
     reasons = [attempt["why"] for attempt in run.summary["failed_attempts"]]
     verdicts.at_least("singular matrix: cut-backs", run.summary["cutbacks"], 1, "else nothing is tested")
     told = all("singular" in why for why in reasons) and reasons[0] in run.text
@@ -140,7 +148,7 @@ def singular(verdicts, driver):
     verdicts.near("singular matrix: force of the floor after it", abs(force), FLOOR_FORCE, SAME_ANSWER, "E u / L")
     left = run.resultant("lower")
     verdicts.below("singular matrix: force of the floor out of reach", np.abs(left).max(), 0, "the block ends above it")
-    whole = driver.run("two_floors", "-steps_smallest", 1, label="two_floors_at_once", expect=2)
+    whole = driver.run("two_floors", *AUGMENTED, "-steps_smallest", 1, label="two_floors_singular", expect=2)
     verdicts.true("singular matrix: a run that ends there says so", "singular" in whole.text, "exit code 2")
 
 

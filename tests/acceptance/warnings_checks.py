@@ -63,26 +63,29 @@ CLAMPED = {
     "middle": {"nonmortar": "upper.zmin", "mortar": "lower.zmax", "law": "tied"},
     "steps": {"count": 1},
     "output": {"vtu": "none", "csv": "none"},
+    "probes": ["end"],
+    "end": {"body": "upper", "point": [3, 0, 1]},
 }
 OTHER_SIDE = ("-middle_nonmortar", "lower.zmax", "-middle_mortar", "upper.zmin")
-# (what it is, options, ranks, are there multipliers at the wall that push on nothing that moves)
+# (what it is, options, ranks, are there multipliers at the wall whose conditions are surplus)
 AT_THE_WALL = (
     ("three nodes over two at a wall", (), 1, True),
     ("the same on two ranks", (), 2, True),
     ("in other units", ("-upper_young", 1e11, "-lower_young", 1e11, "-tip_traction", "0,0,-1e7"), 1, True),
-    ("two nodes over three", OTHER_SIDE, 1, False),
-    ("two nodes over three, a thousand times stiffer", (*OTHER_SIDE, "-lower_young", 1e6), 1, False),
-    # A dual multiplier at the wall does no work on what is linear along the row of facets beside it.
+    ("two nodes over three", OTHER_SIDE, 1, True),
+    ("two nodes over three, a thousand times stiffer", (*OTHER_SIDE, "-lower_young", 1e6), 1, True),
     ("dual, two nodes over three", (*OTHER_SIDE, "-middle_basis", "dual"), 1, True),
     ("one layer clamped alone", ("-wall_surface", "lower.xmin"), 1, False),
 )
-WARNS_HELD, WARNS_LINEAR, WARNS_UNDETERMINED = "nothing holds what follows", "whose material is linear", "are not determined by the equations"
+# Both layers move along the wall, or are moved apart there.
+MOVED = ("-supports", "wall,other", "-wall_surface", "upper.xmin", "-other_surface", "lower.xmin", "-other_components", "x,y,z")
+WARNS_HELD, WARNS_LINEAR = "nothing holds what follows", "whose material is linear"
 
 
 def warnings(verdicts, driver):
     held(verdicts, driver)
     linear(verdicts, driver)
-    undetermined(verdicts, driver)
+    redundant(verdicts, driver)
 
 
 def held(verdicts, driver):
@@ -126,10 +129,20 @@ def linear(verdicts, driver):
     verdicts.true("the block, with small_strain: silent", silent, "the scene says that the linear theory is meant")
 
 
-def undetermined(verdicts, driver):
+def redundant(verdicts, driver):
     scene = write(CLAMPED, driver.output / "clamped.yaml")
-    for k, (what, options, ranks, warns) in enumerate(AT_THE_WALL):
+    for k, (what, options, ranks, expected) in enumerate(AT_THE_WALL):
         run = driver.run(scene, *options, label=f"clamped_{k}", ranks=ranks)
-        said, found = run.text.count(WARNS_UNDETERMINED), run.summary.get("undetermined", {}).get("middle", {})
+        found = run.summary.get("redundant", {}).get("middle", {})
         at = found.get("position", [None])[0]
-        verdicts.true(f"{what}: {said} warnings, {found or 'nothing found'}", said == warns == bool(found) and at in (0, None), "at the wall")
+        verdicts.true(f"{what}: left out {found or 'nothing'}", expected == bool(found) and at in (0, None), "at the wall")
+        bent = run.steps[-1]["probes"]["end"][2]
+        first = bent if k == 0 else first
+        if ranks == 2:
+            verdicts.near("two ranks bend as one does", bent, first, 1e-9 * abs(first), "displacement of the tip")
+    for value, refused in (("0,0,0.01", False), ("0,0,0", True)):
+        run = driver.run(
+            scene, *MOVED, "-wall_value", value, "-other_value", "0,0,0.01", label=f"moved_{refused}", expect=2 if refused else 0
+        )
+        told = "apart along z at (0., " in run.text
+        verdicts.true(f"layers moved {'apart' if refused else 'alike'} at the wall: {'told' if told else 'silent'}", told == refused, "by the node's place")

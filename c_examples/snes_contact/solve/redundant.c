@@ -12,8 +12,10 @@
 #include "solve/direct.h"
 #include <stdlib.h>
 
-/* Eigenvectors of so many multipliers take a second; of more they are not sought, and what a step ends with is looked at alone. */
+/* So many multipliers take a second; more are not looked at, and what a step ends with is looked at alone. */
 enum { MOST_SUSPECTS = 1000 };
+/* Over the longest edge of the mortar side; of an analytic one over the root of a node's area */
+static const PetscReal LIKE_GAPS = 1e-4;
 
 /* Only these have forces that are a multiplier's times weights. */
 static PetscBool may_have(const Interface *interface)
@@ -70,10 +72,21 @@ static int compare(const void *one, const void *two)
   return (a->component > b->component) - (a->component < b->component);
 }
 
+/* Those first that stay: of two floors under a block it is the upper one, which is less open; what supports hold gives way to what is
+ * free. Gaps that differ by rounding are like gaps. */
+static int compare_strength(const void *one, const void *two)
+{
+  const Multiplier *a = one, *b = two;
+  if (a->held != b->held) return a->held ? 1 : -1;
+  if (a->steps_open != b->steps_open) return a->steps_open < b->steps_open ? -1 : 1;
+  return compare(one, two);
+}
+
 /* of this rank's nodes at home */
 static PetscErrorCode look_at_home(const Contact *contact, PetscInt number, const PetscInt surfaces[], PetscInt *n, Multiplier found[])
 {
   const Interface *interface = &contact->interfaces[number];
+  const PetscReal  edge = interface->longest_edge;
   const PetscInt   c = interface->components, field = 1 + number, all = interface->dimension == 3 ? 7 : 3;
   const PetscInt  *nodes = interface->nodes, *copies = interface->copies;
   int64_t         *equations;
@@ -91,7 +104,12 @@ static PetscErrorCode look_at_home(const Contact *contact, PetscInt number, cons
     m->coverage = interface->states.coverage[a];
     m->tied     = (PetscBool)(interface->options.friction == STICKSLIP_FRICTION_TIED);
     m->held     = (PetscBool)(m->tied ? (interface->prescribed[a] >> m->component) & 1 : (interface->prescribed[a] & all) == all);
-    m->gap      = m->tied ? 0 : interface->states.gap[a] / m->coverage;
+    if (m->tied) {
+      m->steps_open = 0;
+    } else { /* what is analytic has no edges */
+      const PetscReal step = LIKE_GAPS * (edge > 0 ? edge : PetscSqrtReal(m->coverage));
+      m->steps_open        = PetscFloorReal(interface->states.gap[a] / m->coverage / step + 0.5);
+    }
     contact_vector(interface->dimension, interface->X, a, m->X);
     (*n)++;
   }
@@ -126,7 +144,7 @@ static PetscErrorCode find_suspects(const Contact *contact, PetscInt *n_all, Mul
   *n_all = offsets[size] / (PetscInt)sizeof(*here);
   PetscCall(PetscMalloc1(*n_all, all));
   PetscCallMPI(MPI_Allgatherv(here, mine, MPI_BYTE, *all, bytes, offsets, MPI_BYTE, PETSC_COMM_WORLD));
-  qsort(*all, (size_t)*n_all, sizeof(**all), compare);
+  qsort(*all, (size_t)*n_all, sizeof(**all), compare_strength);
   PetscCall(PetscFree2(bytes, offsets));
   PetscCall(PetscFree(here));
   PetscCall(PetscFree(surfaces));
@@ -288,7 +306,8 @@ static PetscErrorCode judge(Solve *solve, PetscInt n, const Multiplier suspects[
     PetscCall(ISGetSize(others, &n_others));
     if (n_others) PetscCall(eliminate_others(N, suspect, others, S));
     PetscCall(gather(S, n, order, values));
-    PetscCall(dependent_find(n, suspects, values, redundant));
+    dependent_find(n, suspects, values, redundant);
+    PetscCallMPI(MPI_Bcast(redundant, (PetscMPIInt)n, MPIU_BOOL, 0, PETSC_COMM_WORLD)); /* sums may be rounded otherwise elsewhere */
     PetscCall(MatDestroy(&S));
     PetscCall(MatDestroy(&sparse));
     PetscCall(ISDestroy(&suspect));

@@ -4,15 +4,16 @@
 #include "solve/solve.h"
 
 /* A multiplier that may be redundant: its equation, of which component of which node of which interface; whether that is tied, and held by
- * supports (of contact: wholly); where that is, what is covered of the node, and how far that is open. */
+ * supports (of contact: wholly); where that is, what is covered of the node, and how far that is open,
+ * in steps too small to count. */
 struct Multiplier {
   PetscInt  equation, interface, number, component;
   PetscBool tied, held;
-  PetscReal X[3], coverage, gap;
+  PetscReal X[3], coverage, steps_open;
 };
 
-/* dependent.c: of `n` multipliers, which to leave out; S (n x n, overwritten): products of their forces */
-PetscErrorCode dependent_find(PetscInt n, const Multiplier multipliers[], PetscReal S[], PetscBool dependent[]);
+/* dependent.c: of `n` multipliers, which follow from those before them; S (n x n, overwritten): products of their forces */
+void dependent_find(PetscInt n, const Multiplier multipliers[], PetscReal S[], PetscBool dependent[]);
 
 /* torn.c: ties that supports tear where their conditions are left out, in words */
 PetscErrorCode torn_find(Solve *solve, char why[], size_t size);
