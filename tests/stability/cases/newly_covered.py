@@ -7,9 +7,9 @@ from cell import series
 MU, FACET, TRAVEL = 0.3, 0.2, 1.2
 # Facets a step. Beyond what the neighbours of newly covered nodes reach steps are cut back.
 FACETS = ("0.25", "0.5", "1", "2", "3", "6")
-# Normals are those of the step's start: a facet that the block comes to has not been dented then. 1.7 % at two facets a step, and less the
-# shorter the steps are.
-OFF = 0.02
+# Normals are those of the step's start: a facet that the block comes to has not been dented then. Measured 1 % at one facet a step, 1.7 % at
+# two, 2.3 % at three; normals of now have 0.4 %.
+OFF = 0.025
 
 
 def scene(facets, basis):
