@@ -6,8 +6,8 @@
  * (klarbring.yaml). The answer does not depend on it, so where cycling.c finds a cycle, the augmentation of the
  * nodes that cycle is changed, a few times at most in one attempt:
  *   1. full steps; a cycle divides the augmentation by 100;
- *   2. in the first step, the same without the slight compression that nodes which touch start with (contact_start()): where another
- *      interface presses its body away from them, it makes them stick;
+ *   2. in the first step, where the supports leave a body free to move, the same without the slight compression that nodes which touch
+ *      start with (contact_start()): where another interface holds the body away from them, they seem to stick;
  *   3. if normals follow the motion, the same in two phases: with the normals of the start of the step, and from there with
  *      the current ones. Deep contact over facets that turn much needs it;
  *   4. if the start was extrapolated, as 1 from the start that is not (first_iterate.c);
@@ -271,7 +271,7 @@ PetscErrorCode newton_solve(Solve *solve, Past *past, Vec x, PetscBool *converge
   closing_first = (PetscBool)(closing_first || laid);
   for (int i = 0; i < N_ATTEMPTS && !*converged; i++) {
     const int k = !closing_first || i > CLOSING ? i : i ? i - 1 : CLOSING;
-    if (k == BARE && solve->contact->n_commits) continue;
+    if (k == BARE && (solve->contact->n_commits || !solve->closing.possible)) continue;
     if (k == SETTLING && !normals_follow(solve->contact)) continue;
     if (k == PLAIN && !extrapolates) continue;
     if (k == BACKTRACKING && newton->fixed_line_search) continue;
