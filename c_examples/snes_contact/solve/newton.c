@@ -264,7 +264,7 @@ PetscErrorCode newton_solve(Solve *solve, Past *past, Vec x, PetscBool *converge
   PetscCall(progress_begin(solve));
   *converged         = PETSC_FALSE;
   closing_begin(solve, PETSC_FALSE);
-  PetscCall(settle(solve, past, &laid));
+  PetscCall(settle_loose(solve, past, &laid));
   extrapolates = first_iterate_extrapolates(solve, past);
   PetscCall(first_iterate(solve, past, extrapolates, x));
   PetscCall(closing_needed(solve, x, &closing_first));
