@@ -27,6 +27,8 @@ PINNED = 1e-8
 FAILING = 5 * 11
 # Friction that holds, and one that lets some nodes slip.
 FRICTIONS = (0.0, 0.3)
+# Of the ring of shrunk_on(), over its height and an angle of 1: four cells through its wall.
+SHRUNK = 0.4955
 OTHERS = ({"form": "augmented"}, {"row_scale": "none"}, {"weak_coverage": 0.5})
 
 
@@ -42,6 +44,7 @@ def touching_quick(verdicts, driver):
     stacked(verdicts, driver, (1, 0), FRICTIONS[-1], "cylinder", tied=True)
     switched_off(verdicts, driver)
     pulled_away(verdicts, driver)
+    compressed_start(verdicts, driver)
 
 
 def touching_full(verdicts, driver):
@@ -101,6 +104,39 @@ def differences(run, reference, interfaces):
             error = max(error, np.abs(multiplier(one) - exact).max() / np.abs(exact).max())
             states += int(np.sum(one["state"] != two["state"]))
     return error, states
+
+
+def shrunk_on():
+    """A ring that is shrunk onto a rod and stands on a floor, which its own strain lifts it from."""
+    rigid = {"type": "rigid", "from": "box", "reference": [0, 0]}
+    ring = {"type": "box", "lower": [5, 0], "upper": [7, 2], "cells": [4, 4], "young": 7, "poisson": 0.48}
+    return {
+        "schema": 1,
+        "model": "axisymmetric",
+        "bodies": ["ring", "rod", "floor"],
+        "ring": ring | {"material": "neo_hooke", "dilatation": "mean"},
+        "rod": rigid | {"lower": [4, -2], "upper": [5.02, 6], "cells": [2, 8]},
+        "floor": rigid | {"lower": [4.5, -1], "upper": [9, 0], "cells": [4, 1]},
+        "supports": ["hold", "base"],
+        "hold": {"body": "rod", "components": ["y"]},
+        "base": {"body": "floor", "components": ["y"]},
+        "interfaces": ["side", "foot"],
+        "side": {"nonmortar": "ring.xmin", "mortar": "rod.xmax", "friction": 0.2},
+        "foot": {"nonmortar": "ring.ymin", "mortar": "floor.ymax", "friction": 0.2},
+        "steps": {"count": 1},
+        "output": {"vtu": "none", "csv": "last"},
+    }
+
+
+def compressed_start(verdicts, driver):
+    """Nodes that touch start slightly compressed. Where that leads nowhere, a first step starts without."""
+    forces = []
+    for word in ("true", "false"):
+        run = solve(driver, shrunk_on(), f"shrunk_{word}", "-foot_initial_contact", word, "-side_initial_contact", word)
+        forces.append(run.steps[-1]["interfaces"]["side"]["force"][0])
+        verdicts.below(f"ring shrunk onto a rod, compressed {word}: cut-backs", run.summary["cutbacks"], 0, "none")
+    verdicts.near("ring shrunk onto a rod: force", forces[0], forces[1], SAME, "as without compression at the start")
+    verdicts.near("ring shrunk onto a rod: force", forces[1], SHRUNK, 1e-3, "of a ring of thick wall, as meshed")
 
 
 def switched_off(verdicts, driver):

@@ -10,8 +10,8 @@
  *      if they have thrown the bodies about, damped ones with a hundredth of the augmentation of all nodes. The default one is that of
  *      a solid body: where a thin one is curved, gaps of second order in a step of Newton's method open all of its nodes. A step after
  *      one that was solved so begins so, by full steps where the start is extrapolated;
- *   2. in the first step, the same without the slight compression that nodes which touch start with (contact_start()): where another
- *      interface presses its body away from them, it makes them stick;
+ *   2. in the first step, where the supports leave a body free to move, the same without the slight compression that nodes which touch
+ *      start with (contact_start()): where another interface holds the body away from them, they seem to stick;
  *   3. if normals follow the motion, the same in two phases: with the normals of the start of the step, and from there with
  *      the current ones. Deep contact over facets that turn much needs it;
  *   4. if the start was extrapolated, as 1 from the start that is not (first_iterate.c);
@@ -329,7 +329,7 @@ PetscErrorCode newton_solve(Solve *solve, Past *past, Vec x, PetscBool *converge
   PetscCall(progress_begin(solve));
   *converged         = PETSC_FALSE;
   closing_begin(solve, PETSC_FALSE);
-  PetscCall(settle(solve, past, &laid));
+  PetscCall(settle_loose(solve, past, &laid));
   extrapolates = first_iterate_extrapolates(solve, past);
   PetscCall(first_iterate(solve, past, extrapolates, x));
   PetscCall(closing_needed(solve, x, &closing_first));
@@ -337,7 +337,7 @@ PetscErrorCode newton_solve(Solve *solve, Past *past, Vec x, PetscBool *converge
   for (int i = 0; i < N_ATTEMPTS && !*converged; i++) {
     const int k = order(closing_first ? CLOSING : newton->begins_soft ? SOFTER : FULL, i);
     if (k == SOFTER && !newton->begins_soft && (extrapolates || !(newton->threw || solve->contact->refusal[0]))) continue;
-    if (k == BARE && solve->contact->n_commits) continue;
+    if (k == BARE && (solve->contact->n_commits || !solve->closing.possible)) continue;
     if (k == SETTLING && !normals_follow(solve->contact)) continue;
     if (k == PLAIN && !extrapolates) continue;
     if (k == BACKTRACKING && newton->fixed_line_search) continue;

@@ -383,7 +383,7 @@ static PetscErrorCode lay(Solve *solve, PetscReal t0, Vec last, PetscBool *laid)
 }
 
 /* Before a step is taken from `past`: lays down what is loose there. */
-PetscErrorCode settle(Solve *solve, Past *past, PetscBool *laid)
+PetscErrorCode settle_loose(Solve *solve, Past *past, PetscBool *laid)
 {
   Physics  *physics = solve->physics;
   PetscBool loose;

@@ -212,7 +212,7 @@ PetscBool      closing_settled(const Solve *solve);
 PetscErrorCode closing_shift(Solve *solve, Mat matrix);
 
 /* settle.c: where friction must hold what touches nothing at the start of a step, moves that start, `past`, to where it touches */
-PetscErrorCode settle(Solve *solve, Past *past, PetscBool *laid);
+PetscErrorCode settle_loose(Solve *solve, Past *past, PetscBool *laid);
 
 /* held.c: which bodies contact alone must hold, as a sentence; which ones nothing holds */
 PetscErrorCode held_create(Solve *solve); /* and again, with closing_find(), where other supports hold from now on */
