@@ -6,6 +6,9 @@ from cell import series
 YOUNG, POISSON = 1000.0, 0.3
 SHORTER = 0.01  # what presses the patch
 ROUNDED = 1e-8  # of a patch, over its force
+# Of an edge of shared nodes in contact, with standard multipliers: without one of them others may pull, contact lets these go, and what
+# is left presses a little less evenly: 5e-4 of the force at most in these cells.
+LET_GO = 1e-3
 # Clamped layers of like meshes are the merged body but for what the meshes differ by; of unlike ones their stiffness lies between those of the
 # two merged bodies, within this.
 LIKE, UNLIKE = 1e-4, 0.02
@@ -67,7 +70,7 @@ def patches(law, kinds):
                     force = abs(whole.steps[-1]["reactions"]["press"][len(upper)])
                     errors.append((f"{cell}, {basis}: force", abs(force / exact - 1)))
             for what, error in errors:
-                result.below(what, error, ROUNDED, "a uniform patch")
+                result.below(what, error, ROUNDED if law == "tied" or len(upper) == 1 else LET_GO, "a uniform patch")
             return result
 
         errors = []
