@@ -185,8 +185,8 @@ fn far_sides_of_thin_plates_are_no_pairs() {
                 let mut i = interface(&one, &lower, Options { search_distance: distance, ..options() });
                 let report = i.report(&one.x, &lower.x).unwrap();
                 for (node, x) in report.nodes.iter().zip(&upper.x) {
-                    let is_top = x.z > 0.99 * thick;
-                    assert_eq!(node.cover == Cover::None, is_top, "{thick} {distance:?} {depth}: {x:?}");
+                    let is_bottom = x.z < 0.01 * thick;
+                    assert_eq!(node.cover != Cover::None, is_bottom, "{thick} {distance:?} {depth}: {x:?}");
                 }
                 assert!((report.penetration - depth).abs() < ROUNDING, "{} {depth}", report.penetration);
             }

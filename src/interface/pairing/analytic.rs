@@ -4,7 +4,7 @@
 //! nu is 0 wherever nu is across x - y, however far off the surface is, and beyond that reads as a penetration. The surface counts as one facet with the frame's four points as its nodes, so that all that
 //! follows from the weights (gaps, forces, slip, history) is as for two facets.
 
-use super::filter::{TOUCHES, least_opposition};
+use super::filter::{LEAST_OPPOSITION, TOUCHES, least_opposition};
 use super::work::{Following, Work};
 use crate::error::Result;
 use crate::geometry::{AnalyticSurface, Facet, Plane, Vec3};
@@ -67,10 +67,10 @@ fn centre(plane: &Plane, surface: &AnalyticSurface) -> Vec3 {
     plane.reference - surface.origin + plane.origin
 }
 
-/// Whether a facet with this plane looks at the surface now. At the centre or on the axis nothing is nearest, which is refused
+/// Whether a facet with this plane looks at the surface now, its normals opposing by more than `least`. At the centre or on the axis nothing is nearest, which is refused
 /// where it is needed.
-fn looks(plane: &Plane, surface: &AnalyticSurface) -> bool {
-    surface.closest(centre(plane, surface)).is_none_or(|c| plane.e.dot(&c.normal) < 0.0)
+fn looks(plane: &Plane, surface: &AnalyticSurface, least: f64) -> bool {
+    surface.closest(centre(plane, surface)).is_none_or(|c| plane.e.dot(&c.normal) < -least)
 }
 
 /// The first facet that faced the surface at t_n, when the sides were at x1_n, and through which the surface has passed since: what is
@@ -105,8 +105,10 @@ pub fn facing_now<'a>(
     x1: &'a [Vec3],
 ) -> impl Fn((usize, &Plane)) -> bool + 'a {
     let reach = offsets::reach_of(one);
+    // With the normals of t_n a gap is 0 where they are across, and nothing jumps there.
+    let least = if options.follows_normals() { LEAST_OPPOSITION } else { 0.0 };
     move |(i, plane)| {
-        let still = facing[i] && looks(plane, surface);
+        let still = facing[i] && looks(plane, surface, least);
         still || options.follows_normals() && faces(&one.facet(i, x1), plane, surface, (options, reach), 0.0)
     }
 }
