@@ -14,6 +14,7 @@ pub mod overlaps;
 pub mod prism;
 pub mod reach;
 pub mod search;
+pub mod seen;
 pub mod settle;
 pub mod weak;
 pub mod work;
