@@ -66,6 +66,7 @@
  *     interface_step_limit                   where contact alone holds a body: how much of Newton's step may be taken
  *     interface_equilibrium                  to see whether it has converged, beside the host's own residual
  *     interface_states                       for output
+ *     interface_commit_check                 whether the commit would be accepted, before any of several interfaces or processes commits
  *     interface_commit                       after each converged step; interface_rollback undoes it
  *     interface_destroy                      at the end
  *
@@ -1924,7 +1925,8 @@ int32_t stickslip_interface_commit(struct stickslip_interface *interface,
 ///
 /// Inputs x1, x2, lambda, sums as for the commit.
 ///
-/// Errors: those of `stickslip_interface_commit`.
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE, TURNED_TOO_FAR,
+/// CONTACT_LOST, each as `stickslip_interface_commit` has it.
 /// Cost: as `stickslip_interface_commit`; the evaluation or commit that follows integrates. Allocates.
 int32_t stickslip_interface_commit_check(struct stickslip_interface *interface,
                                          const double *x1,

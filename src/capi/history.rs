@@ -38,7 +38,8 @@ pub unsafe extern "C" fn stickslip_interface_commit(
 ///
 /// Inputs x1, x2, lambda, sums as for the commit.
 ///
-/// Errors: those of `stickslip_interface_commit`.
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE, TURNED_TOO_FAR,
+/// CONTACT_LOST, each as `stickslip_interface_commit` has it.
 /// Cost: as `stickslip_interface_commit`; the evaluation or commit that follows integrates. Allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_commit_check(

@@ -12,7 +12,7 @@
 
 use super::equilibrium::{Largest, Scales};
 use crate::interface::data::surface::Surface;
-use crate::interface::pairing::nearest::{Nearest, Seen};
+use crate::interface::pairing::seen::{Nearest, Seen};
 
 /// An overlap counts in full against a facet where the pressure is this part of the modulus or more.
 const WORTH: f64 = 0.1;

@@ -15,6 +15,7 @@ pub mod overlaps;
 pub mod prism;
 pub mod reach;
 pub mod search;
+pub mod seen;
 pub mod settle;
 pub mod walls;
 pub mod weak;

@@ -4,6 +4,7 @@
 
 use super::filter::{LEAST_OPPOSITION, SMOOTH};
 use super::prism::{Prism, Slab};
+use super::seen::{NOTHING, Nearest, Seen};
 use super::work::Work;
 use crate::error::Result;
 use crate::geometry::{Facet, OUTSIDE, Over, Plane, Vec3};
@@ -15,45 +16,6 @@ use crate::memory;
 const SAGITTA: f64 = 0.25;
 /// The middle of a line off the circle.
 const SAGITTA_OF_LINE: f64 = 0.125;
-
-/// What lies nearest to a node along a non-mortar facet's normal.
-#[derive(Clone, Copy, Debug)]
-pub struct Nearest {
-    /// How far in front of it `[L]`; negative: behind.
-    pub gap: f64,
-    /// What of an overlap the facets' sagittas may be: in any case, and where they are pressed together until gaps and overlaps have the
-    /// mean 0 `[L]`.
-    pub sagittas: [f64; 2],
-    /// The longest edge of the smaller facet `[L]`.
-    pub size: f64,
-    /// Whether the two look at each other.
-    pub opposes: bool,
-    /// A non-mortar facet and node there.
-    pub facet: usize,
-    pub node: usize,
-}
-
-const NOTHING: Nearest =
-    Nearest { gap: f64::INFINITY, sagittas: [0.0; 2], size: 0.0, opposes: false, facet: 0, node: 0 };
-
-impl Nearest {
-    fn offer(&mut self, other: Nearest) {
-        if other.gap.abs() < self.gap.abs() {
-            *self = other;
-        }
-    }
-}
-
-/// Room for it.
-#[derive(Debug, Default)]
-pub struct Seen {
-    /// Per node of both sides, mortar after non-mortar.
-    pub nearest: Vec<Nearest>,
-    /// Per non-mortar node the nearest point in front of the facets around it.
-    pub front: Vec<Nearest>,
-    /// Per facet of either side its plane's normal.
-    pub normals: [Vec<Vec3>; 2],
-}
 
 /// How far a facet may lie off the round surface that it stands for `[L]`: outside of the body where that is hollow, inside where it is round.
 #[inline(never)] // it is asked for three times

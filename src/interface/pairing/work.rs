@@ -1,7 +1,7 @@
 //! What searches and integrations work with, in memory that is kept from one to the next.
 
 use super::candidates::KeptTree;
-use super::nearest::Seen;
+use super::seen::Seen;
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
 use crate::interface::data::counters::Counters;
