@@ -133,8 +133,10 @@ pub fn equilibrium<const N: usize>(
     let first_normals = given.setup.acts_along_first_normals();
     let may_turn = first_normals || rubs_at_points;
     // Of normals that the host gives it knows more.
-    let may_lag =
-        options.friction.law().opens && !first_normals && given.step.now.is_none() && given.setup.nodes.normals.is_none();
+    let may_lag = options.friction.law().opens
+        && !first_normals
+        && given.step.now.is_none()
+        && given.setup.nodes.normals.is_none();
     if may_turn || may_lag {
         given.setup.nonmortar.add_normals(x1, turned)?;
     }
