@@ -1,6 +1,6 @@
 """Seeded histories: two small meshes, or a mesh and an analytic surface, with any options, moved for a few steps. What a
 library gives for them on the way, in digests. Meshes are of linear facets, of some or only quadratic ones, or of lines; multipliers
-standard or dual; nodes or points decide; friction by any law."""
+standard or dual; nodes or points decide; friction by any law; some nodes are offset, some systems condensed."""
 
 import ctypes
 import functools
@@ -11,12 +11,13 @@ from pathlib import Path
 import numpy as np
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "stability"))
-from library import Interface, Law, Library, Refused  # noqa: E402  (needs the path)
+from library import Interface, Law, Library, Refused, pointer  # noqa: E402  (needs the path)
 
 RIGID, ANALYTIC = 1, 2  # STICKSLIP_MORTAR_RIGID, STICKSLIP_MORTAR_ANALYTIC
 COULOMB, FRICTIONLESS, TRESCA = 0, 1, 4  # STICKSLIP_FRICTION_...
 DUAL, CURRENT, POINTS = 1, 0, 1  # STICKSLIP_BASIS_DUAL, STICKSLIP_WEIGHTS_CURRENT, STICKSLIP_DECISION_POINTS
 NONE = -1.0  # STICKSLIP_WEAK_COVERAGE_NONE
+FORCES, CONSTRAINTS = 0, 2  # STICKSLIP_CONDENSED_...
 # What a mesh is of, as often as it stands here. "mixed": some facets are quadratic.
 KINDS = ("linear", "linear", "linear", "quadratic", "mixed", "lines")
 # STICKSLIP_LAW_...: cohesion, weakening, orthotropic.
@@ -187,6 +188,10 @@ def play(library, seed):
         if random.random() < 0.2 and options["friction"] == COULOMB and not options.get("decision"):
             law = LAWS[random.integers(len(LAWS))] | {"direction": (ctypes.c_double * 3)(2.0, -1.0, 0.0)}
             library.call("interface_set_law", interface.handle, ctypes.byref(Law(**law)))
+        if random.random() < 0.2:
+            sides = [0.02 * random.uniform(-1, 1, len(x)) for x in (x1, x2)]
+            library.call("interface_set_offsets", interface.handle, pointer(sides[0]), None if facets2 is None else pointer(sides[1]))
+        condenses = random.random() < 0.3 and options["basis"] == DUAL and not rigid and facets2 is not None
         for step in range(steps):
             one = x1 + move[step] + strain * random.normal(size=x1.shape)
             two = x2 + 0.3 * move[step - 1] + (0.0 if facets2 is None else strain * random.normal(size=x2.shape))
@@ -198,6 +203,8 @@ def play(library, seed):
             for which in order[: 2 + random.integers(2)]:
                 name = ("residual", "tangent", "states")[which]
                 yield name, evaluate(interface, name, at)
+            if condenses and not options.get("decision") and options["form"] == 0:
+                yield "condensed", [interface.piece(piece, *at) for piece in (FORCES, CONSTRAINTS)]
             interface.commit(*at)
             if random.random() < 0.1:
                 interface.rollback()

@@ -2,6 +2,7 @@
 
 use super::sums::NodeSums;
 use crate::error::{Error, Kind, Result};
+use crate::interface::data::options::Weights;
 use crate::interface::data::pairs::Weighted;
 use crate::interface::pairing::filter::Filter;
 use crate::interface::pairing::given::Given;
@@ -19,8 +20,9 @@ pub fn refuse_hybrid<const N: usize>(
     if given.setup.mortar.analytic.is_some() {
         return Ok(());
     }
+    let is_current = given.setup.options.effective_weights() == Weights::Current;
     let has_points = |f: usize| match &given.step.pairing.filter {
-        Some(Filter::Facets(filter)) => !filter.by_overlaps[f],
+        Some(Filter::Facets(filter)) => is_current && !filter.by_overlaps[f],
         _ => false,
     };
     let is_shared =
