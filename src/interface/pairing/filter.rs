@@ -97,9 +97,9 @@ impl Side {
         let bulges: Vec<_> = (0..facets.len()).map(bulge).stored()?;
         let largest = |v: &[f64]| v.iter().copied().fold(0.0, f64::max);
         let largest = (largest(&edges), largest(&bulges));
-        let wall = |(f, back): (usize, &u32)| match back {
-            &NO_FACET => f64::INFINITY,
-            &back => thickness(&facets[f].1, &facets[back as usize].1).max(0.0),
+        let wall = |(f, back): (usize, &u32)| match *back {
+            NO_FACET => f64::INFINITY,
+            back => thickness(&facets[f].1, &facets[back as usize].1).max(0.0),
         };
         let walls = surface.backs.iter().enumerate().map(wall).stored()?;
         Ok(Side { facets, edges, bulges, walls, largest })
