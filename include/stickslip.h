@@ -1363,8 +1363,8 @@ int32_t stickslip_surface_split_creases(const struct stickslip_surface *surface,
 
 /// `stickslip_surface_split_creases` for the lines of a plane or axisymmetric model: n_nodes points of two coordinates and
 /// facets of 2 or 3 nodes, as `stickslip_interface_create` takes them with these models. A node whose two lines meet at
-/// more than angle is listed once for each; lines with a node in the middle are not split there. Everything else, and
-/// what the new surface takes: as there.
+/// more than angle is listed once for each; lines with a node in the middle are not split there. index_base, capacity,
+/// the outputs facet_nodes, originals and count, and what the new surface takes: as there.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE, DUPLICATE_NODE, INVALID_VALUE (the
 /// angle, the index base, or a surface that no interface takes), UNSUPPORTED (a build without lines), BUFFER_TOO_SMALL.

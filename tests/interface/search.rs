@@ -19,6 +19,9 @@ const ROUNDING: f64 = 1e-12;
 /// facet would take a quarter of a node's area.
 const COVERED: f64 = 0.05;
 
+/// Two unit normals with more than this along an axis have a scalar product of at least -0.68: the sides of a wall have less than -0.7.
+const LEAST_UP: f64 = 0.4;
+
 /// What the surfaces lie on: flat (0), or a cylinder along y with this curvature [1/L].
 #[derive(Clone, Copy, Debug)]
 struct Sheet {
@@ -125,20 +128,25 @@ proptest! {
         }
     }
 
-    /// Random triangles in all directions, at all distances: nothing but the definition decides.
+    /// Random triangles in all directions, at all distances: nothing but the definition decides. No two of a heap look so far apart that
+    /// they could be the sides of a wall.
     #[test]
     fn finds_what_all_against_all_finds_in_a_heap_of_triangles(seed in 0_u64..1_000_000, log_ratio in 0.0..4.0_f64) {
         let mut random = Random(seed);
-        let mut heap = |n: usize, size: f64| {
+        let mut heap = |n: usize, size: f64, up: f64| {
             let mut mesh = Mesh { x: Vec::new(), facets: Vec::new() };
-            for f in 0..n as i64 {
+            while mesh.x.len() < 3 * n {
                 let centre = random.vector(1.0);
-                mesh.x.extend((0..3).map(|_| centre + random.vector(size)));
-                mesh.facets.push(vec![3 * f, 3 * f + 1, 3 * f + 2]);
+                let x: [_; 3] = std::array::from_fn(|_| centre + random.vector(size));
+                if up * (x[1] - x[0]).cross(&(x[2] - x[0])).normalize().z > LEAST_UP {
+                    let f = mesh.x.len() as i64;
+                    mesh.facets.push(vec![f, f + 1, f + 2]);
+                    mesh.x.extend(x);
+                }
             }
             mesh
         };
-        let (one, two) = (heap(6, 0.5), heap(40, 0.5 * 10_f64.powf(-log_ratio)));
+        let (one, two) = (heap(6, 0.5, -1.0), heap(40, 0.5 * 10_f64.powf(-log_ratio), 1.0));
         // Any depth: the heap is no surface of a body.
         let options = Options { search_distance: Some(100.0), ..options() };
         for (one, two) in [(&one, &two), (&two, &one)] {

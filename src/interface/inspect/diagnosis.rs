@@ -6,7 +6,7 @@
 //! over displacements are of the order of M_A times the row scale, those over multipliers 1 / r_A, here times r_A M_A.
 //! What couples several nodes (more multipliers than displacements to react) is not seen node by node.
 
-use super::equilibrium::Largest;
+use super::largest::Largest;
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::{Facet, Plane, Vec3};
 use crate::interface::data::options::{MultiplierBasis, Scheme, Weights};

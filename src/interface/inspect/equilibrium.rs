@@ -15,6 +15,7 @@
 //! With normals of t_n a traction acts along those although the surface has turned: what the law would not allow of it if it had turned with
 //! the surface is the lag. What weighted gaps do not see of the real ones: `overlap.rs`.
 
+use super::largest::{Largest, Scales};
 use super::overlap;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
@@ -40,31 +41,11 @@ pub const ROUNDINGS: f64 = 8.0;
 const PRESSES: f64 = 0.01;
 /// And more than this part of the modulus: rounding.
 const NOTHING: f64 = 1e-12;
-/// What a slipping node's traction is wrong by is judged beside friction where that is more than this part of the traction, else beside all
+/// What a node's traction is wrong by is judged beside friction where that is more than this part of the traction, else beside all
 /// of it: torques of shafts are friction's.
 const FRICTION: f64 = 0.1;
 /// Gaps up to this part of a facet touched: where points decide a node's is a mean over parts that are open.
 const TOUCHING: f64 = 0.01;
-
-/// What the host knows of its problem.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Scales {
-    /// Young's modulus of the softer body [F/L^2]; 0: not known.
-    pub modulus: f64,
-    /// A traction that counts where those of now are smaller, as the largest of earlier steps [F/L^2]; 0: none.
-    pub traction: f64,
-}
-
-/// The worst node: the violation that is largest over its scale.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Largest {
-    /// The violation, what rounding makes of it taken off.
-    pub value: f64,
-    /// What it should be compared with.
-    pub scale: f64,
-    /// The node; none where all is zero. The scale is then the least of all nodes.
-    pub node: Option<usize>,
-}
 
 /// The distance from equilibrium.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -88,16 +69,6 @@ pub struct Equilibrium {
     pub penetration: Largest,
     /// The same: how far apart the surfaces really are where a node presses `[L]`.
     pub apart: Largest,
-}
-
-impl Largest {
-    #[inline(never)] // once, not at each of its calls
-    pub(super) fn offer(&mut self, value: f64, scale: f64, node: usize) {
-        // value / scale > self.value / self.scale, where a scale may be zero, too
-        if value * self.scale > self.value * scale || (value > 0.0 && self.node.is_none()) {
-            *self = Largest { value, scale, node: Some(node) };
-        }
-    }
 }
 
 /// The distance of (x, lambda) from equilibrium. Nodes without any multiplier equation, and those whose
@@ -205,7 +176,7 @@ pub fn equilibrium<const N: usize>(
             }
             all.lag.offer(lag * share, traction, a);
             let (size, force) = (lambda[a].norm(), areas[a] * share);
-            let friction = if N == 3 && responses[a].state == State::Slip { tangential(&lambda[a], &nu) } else { 0.0 };
+            let friction = if N == 3 { tangential(&lambda[a], &nu) } else { 0.0 };
             let counts = if friction > FRICTION * size { friction } else { size };
             (all.lag_force[0], all.lag_force[1]) = (all.lag_force[0] + force * lag, all.lag_force[1] + force * counts);
         }

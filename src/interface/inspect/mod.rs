@@ -6,6 +6,7 @@ pub mod closing;
 pub mod describe;
 pub mod diagnosis;
 pub mod equilibrium;
+pub mod largest;
 pub mod mistakes;
 pub mod overlap;
 pub mod report;

@@ -10,7 +10,7 @@
 //! against h p / E, but never against more than h nor less than a tenth of that: before anything presses a
 //! hundredth of a facet is as bad as a tenth is later.
 
-use super::equilibrium::{Largest, Scales};
+use super::largest::{Largest, Scales};
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::seen::{Nearest, Seen};
 
@@ -42,7 +42,10 @@ pub fn largest(
     let mut offer = |which: usize, n: &Nearest, gap: f64| {
         found[which].offer((gap - rounding).max(0.0), scale(n.size, scales), n.node);
     };
-    for n in seen.nearest.iter().filter(|n| n.opposes && n.gap < -n.sagittas[0]) {
+    // A mortar node behind a plate that is nearer to the facet's own nodes is in no body.
+    let nearer = |n: &Nearest, a: usize| !seen.nearest[a].opposes && seen.nearest[a].gap.abs() < n.gap.abs();
+    let hidden = |n: &Nearest| one.facets[n.facet].as_slice().iter().all(|&a| nearer(n, a));
+    for n in seen.nearest.iter().filter(|n| n.opposes && n.gap < -n.sagittas[0] && !hidden(n)) {
         let pressed = one.rows(n.facet).as_slice().iter().any(|&a| presses(a));
         offer(0, n, -n.gap - n.sagittas[0] - if pressed { n.sagittas[1] } else { 0.0 });
     }
