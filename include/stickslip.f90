@@ -373,8 +373,6 @@ module stickslip
     integer(c_int64_t) :: nodes_several = 0
     integer(c_int32_t) :: finding = STICKSLIP_FINDING_NONE ! output
     integer(c_int32_t) :: reserved = 0
-    real(c_double) :: lag_force = 0                ! the same times area, summed up over the nodes [F]
-    real(c_double) :: lag_force_scale = 0
     real(c_double) :: penetration = 0              ! output: the deepest [L]
   end type
 
@@ -497,6 +495,8 @@ module stickslip
     integer(c_int64_t) :: turn_node = -1
     real(c_double) :: lag = 0                      ! of tractions, by the normals of now [F/L^2]; compare with traction_scale
     integer(c_int64_t) :: lag_node = -1
+    real(c_double) :: lag_force = 0                ! the same times area, summed up over the nodes [F]
+    real(c_double) :: lag_force_scale = 0
     real(c_double) :: penetration = 0              ! real overlap at a point [L]
     real(c_double) :: penetration_scale = 0
     integer(c_int64_t) :: penetration_node = -1

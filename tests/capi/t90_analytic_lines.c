@@ -56,20 +56,20 @@ static void press(int32_t model, int32_t basis) {
   CHECK_OK(stickslip_interface_destroy(&interface));
 }
 
-/* Lines that stand for a circle: it lies in their plane, as a cylinder along z or as a sphere. */
+/* Lines that stand for a circle with the body outside: it lies in their plane, as a cylinder along z or as a sphere. */
 static void round_shapes(void) {
   stickslip_interface *interface = NULL;
   const double centre[3] = {0.1, -1e3, 0}, above[3] = {0.1, -1e3, 1}, z[3] = {0, 0, 2}, tilted[3] = {0, 0.1, 1};
   double out[N1], ball[N1];
   CHECK_OK(create(STICKSLIP_MODEL_PLANE, STICKSLIP_BASIS_STANDARD, STICKSLIP_SHAPE_PLANE, 0.0, &interface));
-  CHECK_OK(stickslip_interface_shape_offsets(interface, STICKSLIP_SIDE_NONMORTAR, STICKSLIP_SHAPE_CYLINDER, 1e3, centre, z, out));
-  CHECK_OK(stickslip_interface_shape_offsets(interface, STICKSLIP_SIDE_NONMORTAR, STICKSLIP_SHAPE_SPHERE, 1e3, centre, tilted, ball));
+  CHECK_OK(stickslip_interface_shape_offsets(interface, STICKSLIP_SIDE_NONMORTAR, STICKSLIP_SHAPE_CYLINDER, -1e3, centre, z, out));
+  CHECK_OK(stickslip_interface_shape_offsets(interface, STICKSLIP_SIDE_NONMORTAR, STICKSLIP_SHAPE_SPHERE, -1e3, centre, tilted, ball));
   for (int a = 0; a < N1; ++a) CHECK_NEAR(out[a], ball[a], ROUNDING * 1e3);
   CHECK_REFUSED(stickslip_interface_shape_offsets(interface, STICKSLIP_SIDE_NONMORTAR, STICKSLIP_SHAPE_CYLINDER, 1e3, above, z, out),
                 STICKSLIP_INVALID_VALUE, "point[2]");
   CHECK_REFUSED(stickslip_interface_shape_offsets(interface, STICKSLIP_SIDE_NONMORTAR, STICKSLIP_SHAPE_SPHERE, 1e3, above, z, out),
                 STICKSLIP_INVALID_VALUE, "point[2]");
-  CHECK_REFUSED(stickslip_interface_shape_offsets(interface, STICKSLIP_SIDE_NONMORTAR, STICKSLIP_SHAPE_CYLINDER, 1e3, centre, tilted, out),
+  CHECK_REFUSED(stickslip_interface_shape_offsets(interface, STICKSLIP_SIDE_NONMORTAR, STICKSLIP_SHAPE_CYLINDER, -1e3, centre, tilted, out),
                 STICKSLIP_INVALID_VALUE, "along z");
   CHECK_OK(stickslip_interface_destroy(&interface));
 }

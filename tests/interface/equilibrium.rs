@@ -106,20 +106,25 @@ fn measured<const N: usize>(
     contact.equilibrium(x1, x2, lambda, None, &scales).unwrap()
 }
 
+/// Without what asks which nodes slip: far from equilibrium the augmentation decides that.
+fn without_states(found: Equilibrium) -> Equilibrium {
+    Equilibrium { lag_force: [0.0; 2], ..found }
+}
+
 #[test]
 fn augmentation_row_scale_and_form_have_no_part_in_it() {
     let mut found = [0.0_f64; 3];
     for scales in [SCALES, Scales::default(), Scales { modulus: 1.0, traction: 4.0 }] {
         let mut t = random_point(&options());
-        let expected = measured(&mut t.interface, (&t.x1, &t.x2), &t.lambda, scales);
+        let expected = without_states(measured(&mut t.interface, (&t.x1, &t.x2), &t.lambda, scales));
         found = std::array::from_fn(|k| found[k].max(relative(&expected)[k]));
         for r in [1e-12, 3.0, 1e9] {
             for (form, row_scale) in [(Form::Augmented, RowScale::Force), (Form::Multiplier, RowScale::None)] {
                 let stiffness = Stiffness::Augmentation(r);
                 let mut t = random_point(&Options { form, row_scale, stiffness, ..options() });
-                assert_eq!(measured(&mut t.interface, (&t.x1, &t.x2), &t.lambda, scales), expected);
+                assert_eq!(without_states(measured(&mut t.interface, (&t.x1, &t.x2), &t.lambda, scales)), expected);
                 t.interface.set_augmentation(Some((0..9).map(|a| r * 10f64.powi(a)).collect())).unwrap();
-                assert_eq!(measured(&mut t.interface, (&t.x1, &t.x2), &t.lambda, scales), expected);
+                assert_eq!(without_states(measured(&mut t.interface, (&t.x1, &t.x2), &t.lambda, scales)), expected);
             }
         }
     }

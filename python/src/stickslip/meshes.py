@@ -27,11 +27,18 @@ def split_creases(coordinates: ArrayLike, facets: Sequence, angle: float = 0.7) 
     """
     surface = Surface(coordinates, facets)
     struct, kept = surface._struct()
-    split = "lines_split_creases" if surface.dimension == 2 else "surface_split_creases"
     count = ffi.new("int64_t *")
-    call(split, struct, angle, 0, 0, ffi.NULL, ffi.NULL, count)
+
+    def split(capacity, *outputs):
+        arguments = struct, angle, 0, capacity, *outputs, count
+        if surface.dimension == 2:
+            call("lines_split_creases", *arguments)
+        else:
+            call("surface_split_creases", *arguments)
+
+    split(0, ffi.NULL, ffi.NULL)
     numbers, originals = np.empty_like(surface.facet_nodes), np.empty(count[0], np.int64)
-    call(split, struct, angle, 0, len(originals), pointer(numbers), pointer(originals), count)
+    split(len(originals), pointer(numbers), pointer(originals))
     del kept
     return np.split(numbers, surface.facet_offsets[1:-1]), originals
 

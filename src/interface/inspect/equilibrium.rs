@@ -41,7 +41,7 @@ pub const ROUNDINGS: f64 = 8.0;
 const PRESSES: f64 = 0.01;
 /// And more than this part of the modulus: rounding.
 const NOTHING: f64 = 1e-12;
-/// What a node's traction is wrong by is judged beside friction where that is more than this part of the traction, else beside all
+/// What a slipping node's traction is wrong by is judged beside friction where that is more than this part of the traction, else beside all
 /// of it: torques of shafts are friction's.
 const FRICTION: f64 = 0.1;
 /// Gaps up to this part of a facet touched: where points decide a node's is a mean over parts that are open.
@@ -176,7 +176,7 @@ pub fn equilibrium<const N: usize>(
             }
             all.lag.offer(lag * share, traction, a);
             let (size, force) = (lambda[a].norm(), areas[a] * share);
-            let friction = if N == 3 { tangential(&lambda[a], &nu) } else { 0.0 };
+            let friction = if N == 3 && responses[a].state == State::Slip { tangential(&lambda[a], &nu) } else { 0.0 };
             let counts = if friction > FRICTION * size { friction } else { size };
             (all.lag_force[0], all.lag_force[1]) = (all.lag_force[0] + force * lag, all.lag_force[1] + force * counts);
         }
