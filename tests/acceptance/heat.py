@@ -99,7 +99,8 @@ def bars(verdicts, driver):
 def rubbing(verdicts, driver):
     """A block that is drawn over another one: what friction makes is what the supports take."""
     for share, duration in ((0.5, 1.0), (0.2, 0.25)):
-        scene = two_bars(friction=0.3, conductance_constant=2.0, conductance_reach=0.1, friction_heat=share, weights="current")
+        scene = two_bars(friction=0.3, conductance_constant=2.0, conductance_reach=0.1, friction_heat=share, weights="current",
+                         lag_max=1)  # as many steps as are asked for
         scene["left"]["surface"] = "lower.xmin"
         scene["supports"].append("drag")
         scene["drag"] = {"surface": "upper.zmax", "components": ["x"], "value": [0.2, 0, 0]}

@@ -80,8 +80,8 @@ def turning(verdicts, driver):
 def sliding(verdicts, driver):
     turning(verdicts, driver)
 
-    def run(label, expect=0, **contact):
-        return driver.run(write(drawn(**contact), driver.output / f"{label}.yaml"), *QUIET, label=label, expect=expect)
+    def run(label, **contact):
+        return driver.run(write(drawn(**contact), driver.output / f"{label}.yaml"), *QUIET, label=label)
 
     def off(result):
         return abs(result.steps[-1]["reactions"]["ground"][1] / exact - 1)
@@ -99,7 +99,7 @@ def sliding(verdicts, driver):
         else:
             verdicts.true(f"decision at {decision}: overlaps are told", SAYS_OVERLAP in result.text, f"slide_max: {ANY}, as asked")
     for label, options, warns in (("reference", {}, 1), ("reference_meant", {"slide_max": ANY}, 0)):
-        text = run(label, expect=2, weights="reference", **options).text
+        text = run(label, weights="reference", **options).text
         said = text.count(SAYS_REFERENCE)
         verdicts.true(f"{label.replace('_', ', ')}: {said} warnings", said == warns, "once, or not where it is meant")
-        verdicts.true(f"{label.replace('_', ', ')}: stopped", SAYS_OVERLAP in text, "the bodies really overlap by a tenth of the approach")
+        verdicts.true(f"{label.replace('_', ', ')}: overlaps are told", SAYS_OVERLAP in text, "a tenth of the approach")

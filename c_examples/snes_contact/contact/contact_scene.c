@@ -148,7 +148,7 @@ static const PetscReal SLIDE_MAX = 0.5;
  * shear then. As far off are the forces of the linear material at its limit (range.c). */
 static const PetscReal TURN_TOLD = 0.03;
 /* Default of `lag_max`: what a mesh shows of a contact's force. */
-static const PetscReal LAG_MAX = 0.02;
+static const PetscReal LAG_MAX = 0.1;
 
 /* Keys by which surfaces are beside their meshes: with persistent weights an overlap by them would count as closed. */
 static const char *const OFFSETS[] = {"offset", "offset_at", "round"};

@@ -10,7 +10,8 @@ static const PetscReal ROUNDING = 1e-12;
 
 PetscBool newly_rubs(const stickslip_options *options)
 {
-  return (PetscBool)((options->friction == STICKSLIP_FRICTION_COULOMB && options->mu > 0) || options->friction == STICKSLIP_FRICTION_TRESCA);
+  const PetscBool cone = (PetscBool)(options->friction == STICKSLIP_FRICTION_COULOMB || options->friction == STICKSLIP_FRICTION_TRESCA);
+  return (PetscBool)(cone && options->mu > 0);
 }
 
 /* Adds a part's normal forces to sums[0], to sums[1] those of nodes that slip without friction. */

@@ -7,9 +7,9 @@
 /* An overlap, over the library's scale, that is told, and one with which no step counts: a hundredth and a tenth of a facet where the
  * pressure is large; where nothing presses, less. */
 static const PetscReal OVERLAP_TOLD = 0.03, OVERLAP_MOST = 0.1;
-/* The same of the lag of a node over the largest traction. That of all nodes over their force, with which no step counts, is the scene's
- * `lag_max`; one node may be this many times as far off. */
-static const PetscReal LAG_TOLD = 0.01, NODE_MOST = 5;
+/* The same of the lag, of a node over the largest traction and of all nodes over their force; with which no step counts is the scene's
+ * `lag_max`. */
+static const PetscReal LAG_TOLD = 0.01;
 
 /* The step that follows aims below what is allowed by so much: turns are even, what slips is not. */
 static const PetscReal LAG_MARGIN = 1.3;
@@ -20,9 +20,9 @@ static const char *remedy(const Interface *interface)
     return "With `weights: persistent` what overlaps at the start of a step counts as closed: take `weights: current`";
   if (interface->options.weights != STICKSLIP_WEIGHTS_CURRENT)
     return "Frozen weights do not know where the surfaces are: take `weights: current`, or shorter steps";
-  return decision_is_points(interface) ? "Take finer facets" :
-                                         "Facets that are coarser than the contact do not feel it: make the side with the finer facets "
-                                         "`nonmortar`, mesh both finer, or take `decision: points`";
+  if (decision_is_points(interface) || interface->surface[1]->analytic) return "Facets that are coarser than the contact do not feel it: take finer ones";
+  return "Facets that are coarser than the contact do not feel it: make the side with the finer facets `nonmortar`, mesh both finer, or take "
+         "`decision: points`";
 }
 
 static PetscErrorCode measure(Interface *interface, const Mesh *mesh)
@@ -53,7 +53,7 @@ static PetscErrorCode measure(Interface *interface, const Mesh *mesh)
 }
 
 /* At a converged state that the interfaces have been judged at. `why`, where it does not count; `ratio`: at least how many times too
- * long the step was. */
+ * long the step was. Weights of the reference are for displacements too small to be seen: what they overlap by is told alone. */
 PetscErrorCode unseen_check(Contact *contact, PetscReal *ratio, char why[], size_t length)
 {
   PetscFunctionBegin;
@@ -63,10 +63,10 @@ PetscErrorCode unseen_check(Contact *contact, PetscReal *ratio, char why[], size
     const Frozen *wrong[]   = {&interface->overlap, &interface->apart};
     PetscCall(measure(interface, contact->mesh));
     for (int k = 0; k < 2; k++) {
-      if (wrong[k]->amount > OVERLAP_MOST)
+      if (wrong[k]->amount > OVERLAP_MOST && interface->options.weights != STICKSLIP_WEIGHTS_REFERENCE)
         PetscCall(PetscSNPrintf(why, length, "converged, but %s. %s", wrong[k]->words, remedy(interface)));
     }
-    lags   = PetscMax(interface->lag.amount / NODE_MOST, interface->lag_force) / interface->lag.most;
+    lags   = PetscMax(interface->lag.amount, interface->lag_force) / interface->lag.most;
     *ratio = PetscMax(*ratio, LAG_MARGIN * lags);
     if (lags > 1)
       PetscCall(PetscSNPrintf(why, length,

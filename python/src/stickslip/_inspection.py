@@ -15,7 +15,7 @@ _TYPES = {"double": np.float64, "int32_t": np.int32, "int64_t": np.int64}
 # No sentence of the library comes near it.
 _TEXT = 1 << 16
 # Parts of their scales from which overlaps and lags are told, and from which no step counts.
-_OVERLAP, _LAG, _LAG_FORCE = (0.03, 0.1), (0.01, 0.1), 0.02
+_OVERLAP, _LAG = (0.03, 0.1), (0.01, 0.1)
 
 
 def _members(name: str):
@@ -95,7 +95,7 @@ class Inspection:
             (e.penetration, e.penetration_scale, _OVERLAP, f"bodies overlap by {e.penetration:.3g} at node {e.penetration_node}"),
             (e.apart, e.apart_scale, _OVERLAP, f"node {e.apart_node} presses although the bodies are {e.apart:.3g} apart"),
             (e.lag, e.traction_scale, _LAG, lags),
-            (e.lag_force, e.lag_force_scale, (_LAG_FORCE, _LAG_FORCE), lags),
+            (e.lag_force, e.lag_force_scale, _LAG, lags),
         ):
             if amount > most * scale:
                 raise StepRefused(text)

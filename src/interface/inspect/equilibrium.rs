@@ -203,7 +203,7 @@ pub fn equilibrium<const N: usize>(
             }
         }
     }
-    if options.friction.law().opens {
+    if options.friction.law().opens && !scope.apart {
         look(given.setup.surfaces(), (x1, x2), work)?;
         let least = (PRESSES * traction).max(NOTHING * scales.modulus);
         let presses = |a: usize| {
