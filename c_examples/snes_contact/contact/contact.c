@@ -170,9 +170,8 @@ static PetscErrorCode settle(Contact *contact)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Makes one interface ready for its commit, or tells that a rank would refuse it. `alone`: it is committed at once, for no other
- * one has to agree. */
-static PetscErrorCode prepare(Contact *contact, Interface *interface, PetscBool alone, PetscInt *status)
+/* Commits one interface on all ranks, or tells that one of them refuses; `done`: this rank has. */
+static PetscErrorCode commit(Contact *contact, Interface *interface, PetscBool *done, PetscInt *status)
 {
   ContactPart *part    = &interface->part;
   int32_t      refused = 0;
@@ -186,28 +185,28 @@ static PetscErrorCode prepare(Contact *contact, Interface *interface, PetscBool 
   }
   if (part->handle && !refused && interface->n_parts > 1) refused = keep_slip(part);
   part->processor -= work_clock();
-  if (part->handle && !refused)
-    refused = (alone ? stickslip_interface_commit : stickslip_interface_commit_check)(part->handle, STATE_OF(part), NULL);
+  if (part->handle && !refused) {
+    refused = stickslip_interface_commit(part->handle, STATE_OF(part), NULL);
+    *done   = (PetscBool)!refused;
+  }
   part->processor += work_clock();
   PetscCall(contact_agree(contact, interface, refused, status));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* All interfaces accept the step on all ranks, or none. */
+/* All interfaces accept the step on all ranks, or none: what was committed beside a refusal is rolled back. */
 PetscErrorCode contact_commit(Contact *contact, PetscInt *status)
 {
-  const PetscBool alone = (PetscBool)(contact->n_interfaces == 1 && contact->interfaces[0].n_parts < 2);
+  PetscBool *done;
   PetscFunctionBegin;
   *status = 0;
+  PetscCall(PetscCalloc1(contact->n_interfaces, &done));
   for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++)
-    PetscCall(prepare(contact, &contact->interfaces[i], alone, status));
-  if (*status) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt i = 0; i < contact->n_interfaces && !alone; i++) {
-    ContactPart *part = &contact->interfaces[i].part;
-    part->processor -= work_clock();
-    if (part->handle) PetscCallStickslip(stickslip_interface_commit(part->handle, STATE_OF(part), NULL));
-    part->processor += work_clock();
+    PetscCall(commit(contact, &contact->interfaces[i], &done[i], status));
+  for (PetscInt i = 0; i < contact->n_interfaces && *status; i++) {
+    if (done[i]) PetscCallStickslip(stickslip_interface_rollback(contact->interfaces[i].part.handle));
   }
-  PetscCall(settle(contact));
+  if (!*status) PetscCall(settle(contact));
+  PetscCall(PetscFree(done));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -19,8 +19,11 @@ static PetscErrorCode add_forces(const ContactPart *part, PetscReal sums[2])
 {
   const PetscInt   n1 = part->n1, d = part->dimension;
   stickslip_states wanted = {.struct_size = sizeof(wanted)};
+  PetscReal        pressed = 0;
   PetscFunctionBegin;
-  if (!part->handle) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < part->components * n1; k++)
+    pressed = PetscMax(pressed, PetscAbsReal(PetscRealPart(MULTIPLIERS_OF(part, part->gathered)[k])));
+  if (!part->handle || !(pressed > 0)) PetscFunctionReturn(PETSC_SUCCESS); /* coverage would be sought */
   PetscCall(PetscMalloc4(n1, &wanted.state, d * n1, &wanted.traction, d * n1, &wanted.normal, n1, &wanted.coverage));
   PetscCallStickslip(stickslip_interface_states(part->handle, STATE_OF(part), NULL, &wanted));
   for (PetscInt a = 0; a < n1; a++) {

@@ -21,23 +21,25 @@ static PetscBool goes_with(const Interface *interface)
   return (PetscBool)!(interface->offsets.any && options->normals == STICKSLIP_NORMALS_CURRENT);
 }
 
-/* Is any node covered in part at the start? */
+/* Is any node covered in part at the start? Where the surfaces are apart nothing is sought to tell. */
 static PetscErrorCode hangs_over(const ContactPart *part, PetscBool *any)
 {
-  stickslip_states wanted = {.struct_size = sizeof(wanted)};
-  double          *coverage, *area;
+  stickslip_counters counters = {.struct_size = sizeof(counters)};
+  stickslip_states   state = {.struct_size = sizeof(state)}, wanted = {.struct_size = sizeof(wanted)};
   PetscFunctionBegin;
   *any = PETSC_FALSE;
-  PetscCall(PetscMalloc2(part->n1, &coverage, part->n1, &area));
-  wanted.coverage = coverage;
-  wanted.area     = area;
-  if (part->handle) PetscCallStickslip(stickslip_interface_states(part->handle, STATE_OF(part), NULL, &wanted));
-  for (PetscInt a = 0; a < part->n1 && part->handle; a++) {
+  PetscCall(PetscMalloc3(part->n1, &state.state, part->n1, &wanted.coverage, part->n1, &wanted.area));
+  if (part->handle) {
+    PetscCallStickslip(stickslip_interface_states(part->handle, STATE_OF(part), NULL, &state));
+    PetscCallStickslip(stickslip_interface_counters(part->handle, &counters));
+    if (!counters.evaluations_apart) PetscCallStickslip(stickslip_interface_states(part->handle, STATE_OF(part), NULL, &wanted));
+  }
+  for (PetscInt a = 0; a < part->n1 && part->handle && !counters.evaluations_apart; a++) {
     if (part->owned[a] != STICKSLIP_NODE_OWN || part->removed[a] == 7) continue;
-    *any = (PetscBool)(*any || (coverage[a] > 0 && coverage[a] < WHOLE * area[a]));
+    *any = (PetscBool)(*any || (wanted.coverage[a] > 0 && wanted.coverage[a] < WHOLE * wanted.area[a]));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, any, 1, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
-  PetscCall(PetscFree2(coverage, area));
+  PetscCall(PetscFree3(state.state, wanted.coverage, wanted.area));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
