@@ -77,10 +77,28 @@ class Planted(Driver):
 
 def sound(verdicts, driver):
     driver.output.mkdir(parents=True, exist_ok=True)
+    lonely(verdicts, driver)
     planted(verdicts, driver)
     carried(verdicts, driver)
     sinks(verdicts, driver)
     spins(verdicts, driver)
+
+
+def lonely(verdicts, driver):
+    """A block that touches with one corner, tilted, and one that touches with all of its side."""
+    for tilt, told in ((0.05, True), (0.0, False)):
+        scene = {
+            "schema": 1, "model": "plane_strain", "bodies": ["block", "floor"],
+            "block": {"type": "box", "corners": [0, 0, 1, tilt, 1, 1, 0, 1], "cells": [8, 4], "young": 1000, "poisson": 0.3},
+            "floor": {"type": "box", "lower": [-1, -1], "upper": [2, 0], "cells": [20, 4], "young": 1000, "poisson": 0.3},
+            "supports": ["ground", "press"],
+            "ground": {"surface": "floor.ymin", "components": ["x", "y"]},
+            "press": {"surface": "block.ymax", "components": ["x", "y"], "value": [0, -0.0003]},
+            "interfaces": ["contact"], "contact": {"nonmortar": "block.ymin", "mortar": "floor.ymax", "basis": "dual"},
+            "steps": {"count": 1}, "output": {"vtu": "none", "csv": "none"},
+        }
+        run = driver.run(write(scene, driver.output / f"lonely_{tilt}.yaml"))
+        verdicts.true(f"tilted by {tilt}: one node carries all, told", ("is at one node" in run.text) == told, "the contact is smaller than a facet")
 
 
 def planted(verdicts, driver):
