@@ -2,46 +2,45 @@
 
 use super::augmented::{NodeCouplings, dtraction};
 use super::emission::{Emitter, Place};
-use super::union::UnionPair;
-use crate::element::{FacetResponse, NodeTangent, PairNow, RowColumns, row_columns};
+use super::facet_table::FacetTable;
+use crate::element::{FacetResponse, NodeTangent, Rows};
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::carried::{multiplier_share, transfer};
 use crate::law::NodeResponse;
-use crate::mortar::{PAIR_NODES, PairWeights, slots};
 use crate::shape::MAX_CORNERS;
 use nalgebra::SMatrix;
 
-/// What the gaps of a pair's carried nodes add to their carriers' rows. `carried`: which nodes are; `None` for the pattern
+/// What the gaps of a facet's carried nodes add to their carriers' rows. `carried`: which nodes are; `None` for the pattern
 /// alone.
 pub fn rows<const N: usize>(
-    pair: &UnionPair,
-    (now, previous): (Option<&PairNow>, Option<&PairWeights>),
+    (f, table): (usize, &FacetTable<N>),
     carried: Option<(&[bool], &[NodeTangent<N>])>,
+    rows: &mut Vec<Rows<N>>,
     emitter: &mut Emitter<N>,
-) {
+) -> Result<()> {
     let (given, normals) = (emitter.given, emitter.normals);
-    let moves = given.setup.effects.moves();
-    for (k, &a) in given.setup.nonmortar.facets[pair.one].as_slice().iter().enumerate() {
+    let one = &given.setup.nonmortar;
+    let own = one.facets[f].as_slice();
+    for (k, &a) in own.iter().enumerate() {
         for &(b, w) in given.carriers_of(a) {
-            let mut rows: RowColumns<N> = [[[[0.0; MAX_CORNERS]; N]; 3]; PAIR_NODES];
-            if let Some((_, nodes)) = carried.filter(|(carried, _)| carried[a]) {
+            let share = carried.filter(|(carried, _)| carried[a]).map(|(_, nodes)| {
                 let t = transfer(given, a, normals[a], normals[b]) * w;
-                let (zero, mut share) = (NodeTangent::default(), NodeTangent::default());
-                share.drow_dnow = nodes[b].drow_dnow * t;
-                share.drow_dprevious = nodes[b].drow_dprevious * t;
-                let slots = std::array::from_fn(|j| if j == k { &share } else { &zero });
-                row_columns(moves, (now, previous), &FacetResponse::new(slots), &mut rows);
+                let (drow_dnow, drow_dprevious) = (nodes[b].drow_dnow * t, nodes[b].drow_dprevious * t);
+                NodeTangent { traction: Vec3::zeros(), drow_dnow, drow_dprevious }
+            });
+            if let Some(share) = &share {
+                table.rows_of(&FacetResponse::new([share; MAX_CORNERS]), rows)?;
             }
-            let values = rows.map(|columns| columns.map(|rows| rows.map(|nodes| nodes[k])));
-            for (node, values) in pair.slots(given.setup).iter().zip(&values).take(slots(moves)) {
-                if let Some(node) = *node {
-                    emitter.node_row(b, node, values);
-                }
+            for (column, node) in table.nodes(own, one.len()) {
+                let of = |of: &Rows<N>| of.map(|rows| rows.map(|nodes| nodes[k]));
+                let values = share.as_ref().map_or([[0.0; N]; 3], |_| of(&rows[column]));
+                emitter.node_row(b, node, &values);
             }
         }
     }
+    Ok(())
 }
 
 /// Columns of the carriers' multipliers in A's row.
@@ -58,26 +57,21 @@ pub fn multipliers<const N: usize>(a: usize, carried: bool, emitter: &mut Emitte
     }
 }
 
-/// Augmented form: the gaps of a pair's carried nodes in their carriers' tractions.
+/// Augmented form: the gap of the k-th node of facet f, if it is carried, in its carriers' tractions.
 pub fn couple<const N: usize>(
     (given, normals): (Given<N>, &[Vec3]),
-    pair: &UnionPair,
-    (now, previous): (Option<&PairNow>, Option<&PairWeights>),
-    carried: Option<(&[bool], &[NodeResponse<N>])>,
+    (f, k, table): (usize, usize, &FacetTable<N>),
+    (carried, rows): (Option<(&[bool], &[NodeResponse<N>])>, &mut Vec<Rows<3>>),
     couplings: &mut [NodeCouplings],
 ) -> Result<()> {
-    let nodes = pair.slots(given.setup);
-    let nodes = &nodes[..slots(given.setup.effects.moves())];
-    for (k, &a) in given.setup.nonmortar.facets[pair.one].as_slice().iter().enumerate() {
-        for &(b, w) in given.carriers_of(a) {
-            let mut dp = (Mat3::zeros(), Mat3::zeros());
-            if let Some((_, responses)) = carried.filter(|(carried, _)| carried[a]) {
-                let t = transfer(given, a, normals[a], normals[b]) * w;
-                let (on_now, on_previous) = dtraction(given, b, &responses[b], normals[b]);
-                dp = (on_now * t, on_previous * t);
-            }
-            couplings[b].add_gap(k, nodes, (now, previous), dp)?;
-        }
+    let a = given.setup.nonmortar.facets[f].nodes[k];
+    for &(b, w) in given.carriers_of(a) {
+        let dp = carried.filter(|(carried, _)| carried[a]).map(|(_, responses)| {
+            let t = transfer(given, a, normals[a], normals[b]) * w;
+            let (on_now, on_previous) = dtraction(given, b, &responses[b], normals[b]);
+            (on_now * t, on_previous * t)
+        });
+        couplings[b].add_gap((f, k), (given, table), dp, rows)?;
     }
     Ok(())
 }

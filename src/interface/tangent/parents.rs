@@ -24,7 +24,7 @@ use crate::interface::pairing::overlaps::FacetOverlaps;
 use crate::interface::stages::carried::transfer;
 use crate::interface::stages::sums::in_previous_gaps;
 use crate::memory::{self, Store};
-use crate::mortar::{GapDerivative, MORTAR, SubMotion, rule_for, sub_motion};
+use crate::mortar::{MORTAR, SubMotion, rule_for, sub_motion};
 use crate::quadrature::Rule;
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
 use nalgebra::SMatrix;
@@ -344,7 +344,7 @@ fn add_turned<const N: usize>(
     for part in parents.parts(f) {
         let (sub, parent) = (parents.sub(part), parents.facets[f].parent);
         let turned = given.history().facet_gaps.motion(&given.setup.nonmortar, part, x1)?;
-        let Some(GapDerivative::Turning(blocks)) = turned else { continue };
+        let Some(blocks) = turned else { continue };
         for (a, &row) in parents.space.nodes(parent, sub).iter().enumerate() {
             // A line's two nodes are those of its quadrilateral, each twice; a triangle has zeros for a fourth one.
             for (k, &node) in sub.nodes.iter().enumerate() {
