@@ -250,7 +250,7 @@ def test_a_step_is_asked_whether_it_may_count():
         assert e.penetration == e.lag == e.apart == 0
         with pytest.raises(stickslip.StepRefused, match="not in equilibrium"):
             face.check_step(solid.x1 - 0.01 * solid.nu, solid.x2, lam, modulus=modulus)
-        for angle, outcome in ((0.015, pytest.warns(stickslip.StepWarning, match="lag")), (0.05, pytest.raises(stickslip.StepRefused, match="lag"))):
+        for angle, outcome in ((0.015, pytest.warns(stickslip.StepWarning, match="lag")), (0.15, pytest.raises(stickslip.StepRefused, match="lag"))):
             turn = np.array([[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [-np.sin(angle), 0, np.cos(angle)]])
             with outcome:
                 face.check_step(solid.x1 @ turn.T, solid.x2 @ turn.T, lam, modulus=modulus)
