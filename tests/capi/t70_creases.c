@@ -47,7 +47,7 @@ static void numbering(void) {
 
 /* Two lines at a right angle, in place: the second one gets a node of its own. */
 static void lines(void) {
-  const double corner[] = {0, 0, 1, 0, 1, -1};
+  const double corner[9] = {0, 0, 1, 0, 1, -1}; /* room for the three of a surface */
   const int64_t starts[] = {0, 2, 4};
   int64_t of[] = {0, 1, 1, 2}, originals[4], count = 0;
   const stickslip_surface s = {.struct_size = sizeof s, .n_nodes = 3, .n_facets = 2, .coordinates = corner,

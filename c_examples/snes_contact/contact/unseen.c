@@ -7,6 +7,8 @@
 /* An overlap, over the library's scale, that is told, and one with which no step counts: a hundredth and a tenth of a facet where the
  * pressure is large; where nothing presses, less. */
 static const PetscReal OVERLAP_TOLD = 0.03, OVERLAP_MOST = 0.1;
+/* Before anything has pressed the scale is a tenth of a facet: a tip may dent one by so much before that feels it. */
+static const PetscReal OVERLAP_FIRST = 1;
 /* The same of the lag, of a node over the largest traction and of all nodes over their force; with which no step counts is the scene's
  * `lag_max`. */
 static const PetscReal LAG_TOLD = 0.01;
@@ -67,7 +69,7 @@ PetscErrorCode unseen_check(Contact *contact, PetscReal *ratio, char why[], size
     const Frozen *wrong[]   = {&interface->overlap, &interface->apart};
     PetscCall(measure(interface, contact->mesh));
     for (int k = 0; k < 2; k++) {
-      if (wrong[k]->amount > OVERLAP_MOST && !told)
+      if (wrong[k]->amount > (interface->largest_traction > 0 ? OVERLAP_MOST : OVERLAP_FIRST) && !told)
         PetscCall(PetscSNPrintf(why, length, "converged, but %s. %s", wrong[k]->words, remedy(interface)));
     }
     lags   = PetscMax(interface->lag.amount, interface->lag_force) / interface->lag.most;
