@@ -9,8 +9,7 @@
 static const PetscReal OVERLAP_TOLD = 0.03, OVERLAP_MOST = 0.1;
 /* Before anything has pressed the scale is a tenth of a facet: a tip may dent one by so much before that feels it. */
 static const PetscReal OVERLAP_FIRST = 1;
-/* The same of the lag, of a node over the largest traction and of all nodes over their force; with which no step counts is the scene's
- * `lag_max`. */
+/* A lag that is told, of a node over the largest traction or of all nodes over their force; with which no step counts is `lag_max`. */
 static const PetscReal LAG_TOLD = 0.01;
 /* One node in contact is no news of a surface of so few. */
 enum { LONELY_OF = 4 };

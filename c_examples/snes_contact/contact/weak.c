@@ -1,7 +1,7 @@
 /* Nodes that are hardly covered, where the scene does not say what becomes of them (`weak_coverage`): their multiplier is a point load
  * without bound at the end of a sliver, and Newton's method loses its way. Their neighbours carry them, and those that a step newly covers
- * under friction (newly.c). With dual multipliers the
- * library does so by itself; with standard ones it cannot, for handles that share sums do not know each other's neighbours. */
+ * under friction (newly.c). With dual multipliers the library does so by itself; with standard ones it cannot, for handles that share sums
+ * do not know each other's neighbours. */
 #include "contact/contact.h"
 
 /* Nodes covered less than this times their best covered neighbour are carried. In the plane such a node has a third of a facet on the other
