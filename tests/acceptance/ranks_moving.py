@@ -26,8 +26,15 @@ SLIDING = {
     "contact": {"nonmortar": "block.zmin", "mortar": "rail.zmax", "friction": 0.3},
     "steps": {"count": 10},
 }
-# The same with the multipliers on the rail: what is in contact wanders over the partition.
-WANDERING = {**SLIDING, "contact": {"nonmortar": "rail.zmax", "mortar": "block.zmin", "friction": 0.3}}
+# The same with the multipliers on the rail: what is in contact wanders over the partition. Hardly covered nodes are carried, so parts have
+# twelve rings of facets: the rail is long enough for many more.
+WANDERING = {
+    **SLIDING,
+    "rail": {**SLIDING["rail"], "upper": [14, 1, 0.5], "cells": [49, 4, 1]},
+    "grip": {**SLIDING["grip"], "value": [12, 0.03, -0.01]},
+    "contact": {"nonmortar": "rail.zmax", "mortar": "block.zmin", "friction": 0.3},
+    "steps": {"count": 24},
+}
 # Steps beyond any margin: parts get more mortar facets within them. Four times the length of the block in four of them.
 LEAPING = {**SLIDING, "steps": {"count": 4}}
 # Meshes that overlap by more than two facets, and a clearance of as much: bodies that touch, pressed and drawn along.
