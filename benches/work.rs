@@ -4,7 +4,7 @@ use std::hint::black_box;
 use stickslip::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_force, row_columns};
 use stickslip::geometry::{Facet, Mat3, Vec3};
 use stickslip::law::{Friction, Node, SlipMeasure, Special};
-use stickslip::mortar::{self, GapDerivative, NonmortarFrame, PairWeights, Segment, WeightDerivatives, pair_motion};
+use stickslip::mortar::{self, NonmortarFrame, PairWeights, Segment, WeightDerivatives, pair_motion};
 use stickslip::quadrature::DEGREE_5;
 
 /// Two facets.
@@ -97,9 +97,8 @@ impl Pair {
         let force = pair_force(&w, &tractions);
         let nodes = FacetResponse::new(nodes.each_ref());
         let motion = pair_motion((frame, segment, &DEGREE_5), &w, &nodes.traction, &mut t.forces);
-        let gap = GapDerivative::Facets(motion);
-        let now = PairNow { weights: &w, gap: Some(&gap), offset: None };
-        row_columns::<3>(true, (Some(&now), Some(&w)), &nodes, &mut t.rows);
+        let now = PairNow { weights: &w, gap: Some(&motion) };
+        row_columns::<3>((Some(&now), Some(&w)), &nodes, &mut t.rows);
         black_box(&t);
         force[0].x + t.rows[0][0][0][0]
     }

@@ -11,9 +11,7 @@ use super::raw::{self, Output};
 use crate::element::{FacetResponse, PairNow, PairTangent, pair_force, row_columns};
 use crate::error::Result;
 use crate::geometry::Projection;
-use crate::mortar::{
-    self, AlongNormal, GapDerivative, NonmortarFrame, PAIR_NODES, PairWeights, Segment, WeightDerivatives,
-};
+use crate::mortar::{self, AlongNormal, NonmortarFrame, PAIR_NODES, PairWeights, Segment, WeightDerivatives};
 use crate::quadrature::Rule;
 use crate::shape::MAX_CORNERS;
 
@@ -228,7 +226,7 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
             (Some(w), Some(dn)) => {
                 let frame = NonmortarFrame::new(&pair.one).map_err(raw::named("pair.x1"))?;
                 let mortar = Projection::new(&pair.two, &frame.plane);
-                Some(GapDerivative::Facets(AlongNormal::from_weights(&frame, &mortar, w, dn)))
+                Some(AlongNormal::from_weights(&frame, &mortar, w, dn))
             }
             _ => None,
         };
@@ -237,8 +235,8 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
         if let (Some(_), Some(dn)) = (&weights, &dn) {
             t.forces = dn.of_forces(&nodes.traction);
         }
-        let now = weights.as_ref().map(|weights| PairNow { weights, gap: gap.as_ref(), offset: None });
-        row_columns::<3>(true, (now.as_ref(), before.as_ref()), &nodes, &mut t.rows);
+        let now = weights.as_ref().map(|weights| PairNow { weights, gap: gap.as_ref() });
+        row_columns::<3>((now.as_ref(), before.as_ref()), &nodes, &mut t.rows);
         check_tangent(&t)?;
         write_tangent(&t, weights.as_ref(), (n1, n2), &mut k);
         Ok(())

@@ -11,7 +11,7 @@ use super::raw::{self, refuse};
 use crate::element::{FacetResponse, PairNow, PairTangent, pair_force, row_columns};
 use crate::error::{Kind, Result};
 use crate::geometry::Facet;
-use crate::mortar::{self, GapDerivative, NonmortarFrame, PairWeights, Segment, pair_motion};
+use crate::mortar::{self, NonmortarFrame, PairWeights, Segment, pair_motion};
 use crate::quadrature::Rule;
 use crate::shape::MAX_CORNERS;
 
@@ -207,9 +207,9 @@ pub unsafe extern "C" fn stickslip_pair_state_tangent(
         let mut t = PairTangent::default();
         let (frame, weights) = (&pair.frame, &pair.weights);
         let motion = |segment| pair_motion((frame, segment, pair.rule), weights, &nodes.traction, &mut t.forces);
-        let gap = pair.segment.as_ref().map(motion).map(GapDerivative::Facets);
-        let now = gap.as_ref().map(|gap| PairNow { weights, gap: Some(gap), offset: None });
-        row_columns::<3>(true, (now.as_ref(), previous.as_ref()), &nodes, &mut t.rows);
+        let gap = pair.segment.as_ref().map(motion);
+        let now = gap.as_ref().map(|gap| PairNow { weights, gap: Some(gap) });
+        row_columns::<3>((now.as_ref(), previous.as_ref()), &nodes, &mut t.rows);
         check_tangent(&t)?;
         write_tangent(&t, Some(weights), (n1, n2), &mut k);
         Ok(())

@@ -52,15 +52,11 @@ impl FacetColumns<'_> {
         }
     }
 
-    /// Adds a pair's share of D(phi q), and the part of Df_C that belongs to the pair.
-    pub fn add_derivatives(&mut self, tractions: &TractionDerivatives, forces: &ForceDerivatives, mortar: &[usize]) {
+    /// Adds the part of Df_C that belongs to a pair.
+    pub fn add_forces(&mut self, forces: &ForceDerivatives, mortar: &[usize]) {
         let columns = self.tractions.len();
         for slot in 0..rolled(PAIR_NODES) {
             let Some(column) = column(slot, self.nodes, mortar) else { continue };
-            let sum = self.tractions[column].as_flattened_mut().as_flattened_mut();
-            for (sum, share) in sum.iter_mut().zip(tractions[slot].as_flattened().as_flattened()) {
-                *sum += share;
-            }
             for (c, &place) in mortar.iter().enumerate() {
                 let rows = self.rows[place / GROUP * columns + column].as_flattened_mut();
                 for (row, force) in rows.iter_mut().zip(forces.two[slot].as_flattened()) {

@@ -21,7 +21,7 @@ pub use basis::DualBasis;
 pub use columns::{Columns, FacetColumns, GROUP, TractionDerivatives, couple};
 pub use coverage::{Coverage, FADE_BAND, whole_area_derivative};
 pub use mass::{Mass, SMALLEST_DETERMINANT, SMALLEST_PIVOT};
-pub use motion::{FacetMotion, PairShare};
+pub use motion::{FacetMotion, FacetShare, PairShare, share_of};
 pub use parents::corner_shares;
 pub use sums::FacetSums;
 pub use vectors::WholeFacet;

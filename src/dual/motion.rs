@@ -11,7 +11,7 @@
 //! The last term alone is no sum over pairs (`columns.rs`). Dphi = phi' (sum_A Dm_A - kappa D|e|) / |e|.
 
 use super::basis::DualBasis;
-use super::columns::TractionDerivatives;
+use super::columns::{Columns, TractionDerivatives};
 use super::coverage::whole_area_derivative;
 use crate::geometry::Vec3;
 use crate::mortar::{AlongNormal, AreaDerivatives, ForceDerivatives, MORTAR, NonmortarFrame, PairWeights, Raised};
@@ -48,6 +48,24 @@ pub struct PairShare<'a> {
     pub tractions: &'a mut TractionDerivatives,
 }
 
+/// The same of a facet's columns, its own nodes in the first [`MORTAR`] places: of one pair, or summed up over its pairs. There are as
+/// many as `forces` has.
+#[derive(Debug)]
+pub struct FacetShare<'a> {
+    /// [Dm q]; then Df_B.
+    pub forces: &'a mut [Columns],
+    /// [-Dn q]; then the part of Df_C that belongs to the pairs. Nothing, where it is elsewhere.
+    pub opposite: &'a mut [Columns],
+    /// gamma; then phi m_A h_A.
+    pub gamma: &'a mut [f64; MAX_CORNERS],
+    /// [Dgamma - Dm h]; then their derivative.
+    pub slopes: &'a mut [[[f64; MAX_CORNERS]; 3]],
+    /// Dm_A; then D(phi m_A).
+    pub areas: &'a mut [[[f64; MAX_CORNERS]; 3]],
+    /// Takes D(phi q).
+    pub tractions: &'a mut [Columns],
+}
+
 impl<'a> FacetMotion<'a> {
     /// At the tractions `p[i][A]` and the facet's sum of gamma.
     pub fn new(
@@ -82,15 +100,29 @@ impl<'a> FacetMotion<'a> {
     /// mortar facet: none where that side is at rest. `weights` are the pair's own. Where a kernel takes all pairs of a
     /// facet together, they count as one pair with the sum of their weights.
     pub fn share(&self, mortar: usize, weights: &PairWeights, pair: PairShare) {
-        simd::dispatch(Share { facet: self, mortar, of_pair: share_of(self.basis, weights), pair });
+        let PairShare { forces, gap, areas, tractions } = pair;
+        let of = FacetShare {
+            forces: &mut forces.one[..MORTAR + mortar],
+            opposite: &mut forces.two,
+            gamma: &mut gap.gamma,
+            slopes: &mut gap.dgamma,
+            areas,
+            tractions,
+        };
+        self.share_facet(share_of(self.basis, weights), of);
+    }
+
+    /// The same of all pairs of a facet whose derivatives are summed up, with their share of kappa.
+    #[inline(never)]
+    pub fn share_facet(&self, kappa: f64, of: FacetShare) {
+        simd::dispatch(Share { facet: self, kappa, of });
     }
 }
 
 struct Share<'a, 'b> {
     facet: &'a FacetMotion<'a>,
-    mortar: usize,
-    of_pair: f64,
-    pair: PairShare<'b>,
+    kappa: f64,
+    of: FacetShare<'b>,
 }
 
 impl Kernel for Share<'_, '_> {
@@ -98,35 +130,40 @@ impl Kernel for Share<'_, '_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Share { facet, mortar, of_pair, pair } = self;
+        let Share {
+            facet,
+            kappa,
+            of: FacetShare { forces, opposite, gamma, slopes, areas: slopes_of_areas, tractions },
+        } = self;
+        let columns = forces.len();
+        let (slopes, slopes_of_areas) = (&mut slopes[..columns], &mut slopes_of_areas[..columns]);
+        let tractions = &mut tractions[..columns];
         let (basis, [a, b, c, d]) = (facet.basis, &facet.inverse);
         let solve = Times([L::load(a), L::load(b), L::load(c), L::load(d)]);
         let (phi, fades) = (L::splat(basis.coverage.fade), basis.coverage.slope != 0.0);
         let (zero, areas, heights) = (L::splat(0.0), L::load(&basis.areas), L::load(&facet.heights));
-        let gamma = &mut pair.gap.gamma;
         *gamma = (areas * solve.times(gamma, zero)).store();
-        for k in 0..MORTAR + mortar {
+        for k in 0..columns {
             if k >= basis.nodes && k < MORTAR {
                 continue;
             }
             for j in 0..rolled(3) {
-                let dm = L::load(&pair.areas[k][j]);
+                let dm = L::load(&slopes_of_areas[k][j]);
                 let (mut area, mut dphi) = (dm, zero);
                 if fades {
-                    dphi = L::splat(facet.dfade(of_pair, &pair.areas[k][j], k, j));
+                    dphi = L::splat(facet.dfade(kappa, &slopes_of_areas[k][j], k, j));
                     area = dphi.mul_add(areas, phi * dm);
-                    pair.areas[k][j] = area.store();
+                    slopes_of_areas[k][j] = area.store();
                 }
-                let dgamma = &mut pair.gap.dgamma[k][j];
+                let dgamma = &mut slopes[k][j];
                 *dgamma = areas.mul_add(solve.times(dgamma, zero), area * heights).store();
                 for i in 0..3 {
-                    let (p, force) = (L::load(&facet.tractions[i]), &mut pair.forces.one[k][j][i]);
+                    let (p, force) = (L::load(&facet.tractions[i]), &mut forces[k][j][i]);
                     let r = dm.mul_sub(p, L::load(force)).store();
                     *force = (area * p).store();
-                    pair.tractions[k][j][i] = solve.times(&r, dphi * L::load(&facet.field[i])).store();
-                    if fades {
-                        let force = &mut pair.forces.two[k][j][i];
-                        *force = (phi * L::load(force)).store();
+                    tractions[k][j][i] = solve.times(&r, dphi * L::load(&facet.field[i])).store();
+                    if let (true, Some(force)) = (fades, opposite.get_mut(k)) {
+                        force[j][i] = (phi * L::load(&force[j][i])).store();
                     }
                 }
             }
@@ -149,6 +186,6 @@ impl<L: Lanes> Times<L> {
 }
 
 /// A pair's share of kappa.
-fn share_of(basis: &DualBasis, weights: &PairWeights) -> f64 {
+pub fn share_of(basis: &DualBasis, weights: &PairWeights) -> f64 {
     (0..basis.nodes).map(|a| weights.coverage(a)).sum::<f64>() / basis.area
 }

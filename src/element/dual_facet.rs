@@ -12,8 +12,7 @@ use super::tangent::{FacetResponse, PairNow, PairTangent, row_columns};
 use crate::dual::{Columns, DualBasis, FacetMotion, FacetSums, GROUP, PairShare, TractionDerivatives, couple};
 use crate::error::{Error, Kind, Result};
 use crate::mortar::{
-    AreaDerivatives, ForceDerivatives, GapDerivative, MORTAR, NonmortarFrame, PAIR_NODES, PairWeights,
-    pair_motion_raised,
+    AreaDerivatives, ForceDerivatives, MORTAR, NonmortarFrame, PAIR_NODES, PairWeights, pair_motion_raised,
 };
 use crate::quadrature::Rule;
 use crate::shape::{MAX_CORNERS, MAX_NODES};
@@ -145,13 +144,13 @@ impl<'a, P: FacetPairs> DualFacet<'a, P> {
             let mut along = pair_motion_raised(pair, &weights, &facet.field, forces, facet.raised(areas));
             let share = PairShare { forces, gap: &mut along, areas, tractions };
             facet.share(self.pairs.nodes(p), &weights, share);
-            (gap, dual) = (Some(GapDerivative::Facets(along)), basis.weights(&weights));
+            (gap, dual) = (Some(along), basis.weights(&weights));
         } else {
             (*forces, *tractions) = (ForceDerivatives::default(), TractionDerivatives::default());
             *rows = Default::default();
         }
-        let now = gap.as_ref().map(|gap| PairNow { weights: &dual, gap: Some(gap), offset: None });
-        row_columns::<3>(true, (now.as_ref(), previous.as_ref()), self.nodes, rows);
+        let now = gap.as_ref().map(|gap| PairNow { weights: &dual, gap: Some(gap) });
+        row_columns::<3>((now.as_ref(), previous.as_ref()), self.nodes, rows);
         (d.weights, d.dual) = (weights.ac, dual.ac);
         Ok(true)
     }

@@ -3,6 +3,7 @@
 
 mod dual_facet;
 mod facet_pairs;
+mod facet_rows;
 mod nodal;
 mod pair_matrix;
 mod parent;
@@ -11,10 +12,9 @@ mod tangent;
 
 pub use dual_facet::DualFacet;
 pub use facet_pairs::{FacetPairs, facet_sums};
+pub use facet_rows::{Along, FacetGaps, Raise, Rows, Slopes, facet_rows, node_row};
 pub use nodal::{NodalPair, NodalWeights, column_force};
 pub use pair_matrix::{Lines, write_pair};
 pub use parent::{ParentPair, parent_force};
 pub use residual::pair_force;
-pub use tangent::{
-    FacetResponse, NodeTangent, OffsetDerivative, PairNow, PairTangent, RowColumns, frozen_rows, gap_rows, row_columns,
-};
+pub use tangent::{FacetResponse, NodeTangent, PairNow, PairTangent, RowColumns, row_columns};

@@ -5,14 +5,13 @@
 //! - multiplier rows: Dc_A = (dc/dg_now) Dg[n_{n+1}, x_{n+1}] + (dc/dg_previous) Dg[n_n, x_{n+1}]
 //!
 //! In the multiplier form the whole tangent is the sum of these and the node blocks. A pair that
-//! overlapped only at t_n has the last term alone. `moves`: whether the mortar side has rows and columns; N: multiplier
-//! components of a node.
+//! overlapped only at t_n has the last term alone. N: multiplier components of a node. Of a facet with all of its pairs: `facet_rows.rs`.
 //!
 //! Blocks lie column by column, x_k,j with k over the pair's slots and j its components, as they are computed: in a
 //! column the components of the rows' equations, and of each the four nodes of a facet.
 
 use crate::geometry::{Mat3, Vec3};
-use crate::mortar::{AlongNormal, ForceDerivatives, GapDerivative, MORTAR, PAIR_NODES, PairWeights, columns, slots};
+use crate::mortar::{AlongNormal, ForceDerivatives, MORTAR, PAIR_NODES, PairWeights, columns};
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 use crate::simd::{self, Kernel, Lanes};
 use nalgebra::{SMatrix, SVector};
@@ -42,8 +41,8 @@ type Rows<const N: usize> = [[[f64; MAX_CORNERS]; 3]; N];
 pub struct FacetResponse<const N: usize = 3> {
     /// `traction[i][A]`.
     pub traction: [[f64; MAX_CORNERS]; 3],
-    now: Rows<N>,
-    previous: Rows<N>,
+    pub(super) now: Rows<N>,
+    pub(super) previous: Rows<N>,
 }
 
 impl<const N: usize> FacetResponse<N> {
@@ -74,62 +73,21 @@ pub type RowColumns<const N: usize> = [[[[f64; MAX_CORNERS]; N]; 3]; PAIR_NODES]
 pub struct PairNow<'a> {
     /// n_{n+1}.
     pub weights: &'a PairWeights,
-    /// Dg[n_{n+1}, x_{n+1}]; `None` where the weights are frozen, unless a first gap turns with the facet: of the first
-    /// of its pairs.
-    pub gap: Option<&'a GapDerivative>,
-    /// What offsets of the nodes add to it; `None` where there are none, or the weights are frozen.
-    pub offset: Option<&'a OffsetDerivative>,
+    /// Dg[n_{n+1}, x_{n+1}]; `None` where the weights are frozen.
+    pub gap: Option<&'a AlongNormal>,
 }
 
-/// D(nu_A o_A) of a pair, o_A = sum_B n_AB h_B + sum_C n_AC h_C with nodes offset by h, at a fixed nu_A: in factors
-/// (docs/formulation.md 15.2).
-#[derive(Clone, Debug)]
-pub struct OffsetDerivative {
-    /// nu of the non-mortar facet's nodes.
-    pub normals: [Vec3; MAX_CORNERS],
-    /// Whether the gaps that slip is measured from, of t_n's weights, have nu_A o_A, too.
-    pub in_previous: bool,
-    /// `[k][j][A]`: d o_A / d x_k,j, k over the pair's slots [L^2].
-    pub slopes: [[[f64; MAX_CORNERS]; 3]; PAIR_NODES],
-}
-
-/// d row / d x of a pair active now, at t_n, or both, into `rows`. Mortar slots are left as they are where that side
-/// does not move.
+/// d row / d x of a pair active now, at t_n, or both, into `rows`.
 #[inline(never)]
 pub fn row_columns<const N: usize>(
-    moves: bool,
     (now, previous): (Option<&PairNow>, Option<&PairWeights>),
     nodes: &FacetResponse<N>,
     rows: &mut RowColumns<N>,
 ) {
-    simd::dispatch(RowKernel { moves, now, previous, nodes, rows });
-}
-
-/// drow . Dg_A / dx_k of one node, for every slot k; `drow`: of the gap of now and of that of t_n's weights, which has the
-/// offsets alone.
-pub fn gap_rows(moves: bool, now: &PairNow, a: usize, drow: (&Mat3, &Mat3)) -> [Mat3; PAIR_NODES] {
-    one_node(moves, (Some(now), None), a, drow)
-}
-
-/// The same with weights held fixed.
-pub fn frozen_rows(moves: bool, weights: &PairWeights, a: usize, drow: &Mat3) -> [Mat3; PAIR_NODES] {
-    one_node(moves, (None, Some(weights)), a, (drow, drow))
-}
-
-fn one_node(
-    moves: bool,
-    pair: (Option<&PairNow>, Option<&PairWeights>),
-    a: usize,
-    drow: (&Mat3, &Mat3),
-) -> [Mat3; PAIR_NODES] {
-    let node = NodeTangent { traction: Vec3::zeros(), drow_dnow: *drow.0, drow_dprevious: *drow.1 };
-    let mut rows = [[[[0.0; MAX_CORNERS]; 3]; 3]; PAIR_NODES];
-    row_columns::<3>(moves, pair, &FacetResponse::new([&node; MAX_CORNERS]), &mut rows);
-    rows.map(|columns| Mat3::from_fn(|i, j| columns[j][i][a]))
+    simd::dispatch(RowKernel { now, previous, nodes, rows });
 }
 
 struct RowKernel<'a, const N: usize> {
-    moves: bool,
     now: Option<&'a PairNow<'a>>,
     previous: Option<&'a PairWeights>,
     nodes: &'a FacetResponse<N>,
@@ -141,66 +99,21 @@ impl<const N: usize> Kernel for RowKernel<'_, N> {
 
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let RowKernel { moves, now, previous, nodes, rows } = self;
-        of_gaps::<L, N>(moves, (now, previous), nodes, rows);
-        if let Some(PairNow { offset: Some(offset), .. }) = now {
-            with_offset::<L, N>(moves, offset, nodes, rows);
-        }
-    }
-}
-
-/// What the pair's own gaps have.
-#[inline(always)]
-fn of_gaps<L: Lanes, const N: usize>(
-    moves: bool,
-    (now, previous): (Option<&PairNow>, Option<&PairWeights>),
-    nodes: &FacetResponse<N>,
-    rows: &mut RowColumns<N>,
-) {
-    match now {
-        Some(PairNow { gap: Some(GapDerivative::Facets(gap)), .. }) => {
-            // In one pass with what the weights of t_n add.
-            let none = PairWeights::default();
-            return with_motion::<L, N>(moves, gap, nodes, previous.unwrap_or(&none), rows);
-        }
-        Some(PairNow { gap: Some(GapDerivative::Blocks(blocks)), .. }) => {
-            with_blocks::<L, N, false>(blocks, nodes, rows)
-        }
-        Some(PairNow { weights, gap: Some(GapDerivative::Turning(blocks)), .. }) => {
-            frozen::<L, N, false>(moves, weights, &nodes.now, rows);
-            with_blocks::<L, N, true>(blocks, nodes, rows);
-        }
-        Some(PairNow { weights, gap: None, .. }) => frozen::<L, N, false>(moves, weights, &nodes.now, rows),
-        None => {}
-    }
-    match (now, previous) {
-        (None, Some(weights)) => frozen::<L, N, false>(moves, weights, &nodes.previous, rows),
-        (_, Some(weights)) => frozen::<L, N, true>(moves, weights, &nodes.previous, rows),
-        _ => {}
-    }
-}
-
-/// Adds drow . nu Do. What depends on the slip alone cancels at a node with this nu, not at one that carries it.
-#[inline(always)]
-fn with_offset<L: Lanes, const N: usize>(
-    moves: bool,
-    OffsetDerivative { normals, in_previous, slopes }: &OffsetDerivative,
-    nodes: &FacetResponse<N>,
-    rows: &mut RowColumns<N>,
-) {
-    let nu = [0, 1, 2].map(|i| normals.map(|nu| nu[i]));
-    for n in 0..N {
-        let mut along = L::splat(0.0);
-        for i in 0..3 {
-            along = L::load(&nodes.now[n][i]).mul_add(L::load(&nu[i]), along);
-            if *in_previous {
-                along = L::load(&nodes.previous[n][i]).mul_add(L::load(&nu[i]), along);
+        let RowKernel { now, previous, nodes, rows } = self;
+        match (now, previous) {
+            (Some(PairNow { gap: Some(gap), .. }), _) => {
+                // In one pass with what the weights of t_n add.
+                let none = PairWeights::default();
+                with_motion::<L, N>(gap, nodes, previous.unwrap_or(&none), rows);
             }
-        }
-        for k in 0..slots(moves) {
-            for j in 0..3 {
-                rows[k][j][n] = along.mul_add(L::load(&slopes[k][j]), L::load(&rows[k][j][n])).store();
+            (Some(now), _) => {
+                frozen::<L, N, false>(now.weights, &nodes.now, rows);
+                if let Some(weights) = previous {
+                    frozen::<L, N, true>(weights, &nodes.previous, rows);
+                }
             }
+            (None, Some(weights)) => frozen::<L, N, false>(weights, &nodes.previous, rows),
+            (None, None) => {}
         }
     }
 }
@@ -208,7 +121,6 @@ fn with_offset<L: Lanes, const N: usize>(
 /// drow . Dg of two facets with current weights, and with those of t_n, which are held fixed.
 #[inline(always)]
 fn with_motion<L: Lanes, const N: usize>(
-    moves: bool,
     d: &AlongNormal,
     nodes: &FacetResponse<N>,
     previous: &PairWeights,
@@ -229,32 +141,10 @@ fn with_motion<L: Lanes, const N: usize>(
                 rows[k][j][n] = tilt.mul_add(L::splat(d.e[j]), row).store();
             }
         }
-        for k in MORTAR..slots(moves) {
+        for k in MORTAR..PAIR_NODES {
             for j in 0..3 {
                 let row = along * L::load(&d.dgamma[k][j]);
                 rows[k][j][n] = fixed[j].neg_mul_add(ac[k - MORTAR], row).store();
-            }
-        }
-    }
-}
-
-/// drow . Dg of a facet's blocks; `ADD`: to what is there.
-#[inline(always)]
-fn with_blocks<L: Lanes, const N: usize, const ADD: bool>(
-    blocks: &[[[[f64; MAX_CORNERS]; 3]; 3]; MAX_NODES],
-    nodes: &FacetResponse<N>,
-    rows: &mut RowColumns<N>,
-) {
-    for n in 0..N {
-        let drow = &nodes.now[n];
-        for k in 0..MAX_NODES {
-            for j in 0..3 {
-                let mut row = L::load(&drow[0]) * L::load(&blocks[k][0][j]);
-                for i in 1..3 {
-                    row = L::load(&drow[i]).mul_add(L::load(&blocks[k][i][j]), row);
-                }
-                let row = if ADD { row + L::load(&rows[k][j][n]) } else { row };
-                rows[k][j][n] = row.store();
             }
         }
     }
@@ -272,14 +162,9 @@ fn component<L: Lanes>(drow: &[[f64; MAX_CORNERS]; 3], v: &Vec3) -> L {
 
 /// drow . Dg with weights held fixed: n_AB drow and -n_AC drow; `ADD`: to what is there.
 #[inline(always)]
-fn frozen<L: Lanes, const N: usize, const ADD: bool>(
-    moves: bool,
-    weights: &PairWeights,
-    drow: &Rows<N>,
-    rows: &mut RowColumns<N>,
-) {
+fn frozen<L: Lanes, const N: usize, const ADD: bool>(weights: &PairWeights, drow: &Rows<N>, rows: &mut RowColumns<N>) {
     let (ab, ac) = (columns::<L>(&weights.ab), columns::<L>(&weights.ac));
-    for k in 0..slots(moves) {
+    for k in 0..PAIR_NODES {
         let weight = if k < MORTAR { ab[k] } else { -ac[k - MORTAR] };
         for n in 0..N {
             for j in 0..3 {

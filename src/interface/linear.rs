@@ -11,9 +11,10 @@ use super::plan::table::{Hand, Table, TableRoom};
 use super::plan::whole::Plan;
 use super::stages::node::is_out_of_reach;
 use super::tangent::augmented::NodeCouplings;
-use super::tangent::blocks::{Numbers, Room, Task, beyond_facets, is_coupled, node_tangents, of_facets, of_nodes};
+use super::tangent::blocks::{Room, beyond_facets, is_coupled, node_tangents, of_facets, of_nodes};
 use super::tangent::derivatives::PairDerivatives;
 use super::tangent::emission::{Emitter, Place};
+use super::tangent::task::{Numbers, Task};
 use super::tangent::turning::{NodeTurn, Turns};
 use super::tangent::union::Pairs;
 use crate::element::NodeTangent;
@@ -135,12 +136,7 @@ impl<'a, const N: usize> Here<'a, N> {
         let responses = &answers.responses;
         let scale = |a: usize| scales.map_or_else(|| given.row_scale(a), |s| s[a]);
         let surface = mortar.analytic.map(|_| mortar.analytic_at(x2)).transpose()?;
-        let motion = PairDerivatives {
-            opposite: given.setup.effects.opposite,
-            surface: surface.as_ref(),
-            tangent: options.tangent,
-            rule: options.rule,
-        };
+        let motion = PairDerivatives { surface: surface.as_ref(), tangent: options.tangent, rule: options.rule };
         node_tangents(given, lambda, responses, normals, scale, work.nodes)?;
         let numbers = Numbers {
             x1,

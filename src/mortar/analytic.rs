@@ -11,7 +11,7 @@
 //! Integrals of shape functions alone are constants of the cell; over a plane there are no others, and no quadrature.
 
 use super::chain::{ForceDerivatives, ONE};
-use super::gap::{GapBlocks, GapDerivative};
+use super::gap::GapBlocks;
 use super::pair_weights::PairWeights;
 use super::segment::NonmortarFrame;
 use super::transport::dots;
@@ -170,9 +170,9 @@ pub fn analytic_motion(
     rule: &Rule,
     p: &[[f64; MAX_CORNERS]; 3],
     forces: &mut ForceDerivatives,
-) -> Result<GapDerivative> {
+) -> Result<GapBlocks> {
     features::needs!(ANALYTIC);
-    simd::dispatch(Motion { frame, surface, rule, p, forces, raised: None }).map(GapDerivative::Blocks)
+    simd::dispatch(Motion { frame, surface, rule, p, forces, raised: None })
 }
 
 /// The derivatives of the stage of a facet with dual multipliers: Dm_B of the covered areas as the forces f_B of the

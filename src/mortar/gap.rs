@@ -55,18 +55,6 @@ pub fn columns<L: Lanes>([a, b, c, d]: &[[f64; MAX_NODES]; MAX_CORNERS]) -> [L; 
 /// `[k][i][j]`, lanes A: d g_A,i / d x_k,j, k over the nodes of the non-mortar facet alone [L^2].
 pub type GapBlocks = [[[[f64; MAX_CORNERS]; 3]; 3]; MAX_NODES];
 
-/// Dg_A of a pair with its current weights.
-#[derive(Clone, Debug)]
-#[allow(clippy::large_enum_variant)] // one at a time, on the stack
-pub enum GapDerivative {
-    /// Of two facets.
-    Facets(AlongNormal),
-    /// Of a facet against an analytic surface, which is at rest.
-    Blocks(GapBlocks),
-    /// With weights held fixed, of g - g_0 where g_0 turns with the facet: what -Dg_0 adds.
-    Turning(GapBlocks),
-}
-
 /// Dg_A of two facets in factors: Dg_A = e Dgamma_A + gamma_A De.
 #[derive(Clone, Debug)]
 pub struct AlongNormal {

@@ -6,7 +6,7 @@ use super::segment::{NonmortarFrame, Segment};
 use super::slots::{MORTAR, PAIR_NODES};
 use super::sub_pair::{COLUMNS, Side, SubDerivatives, SubWeights, rule_for, sub_weights};
 use crate::error::{Error, Kind, Result};
-use crate::geometry::{Facet, Plane, Vec3};
+use crate::geometry::{Facet, Mat3, Plane, Vec3};
 use crate::quadrature::{DEGREE_5, Rule};
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES, Parent, SubFacet, TERMS, monomial_slopes};
 use crate::simd::rolled;
@@ -73,17 +73,48 @@ impl ParentFacet {
     }
 
     /// x_xi x x_eta at node k [L^2]; of a line the second direction is z.
-    #[inline(never)] // unrolled it is large
     fn area_vector(&self, k: usize) -> Vec3 {
+        let [along, across] = self.tangents(&self.slopes(k));
+        along.cross(&across)
+    }
+
+    /// dN_B/dxi and dN_B/deta at node k.
+    #[inline(never)] // unrolled it is large
+    fn slopes(&self, k: usize) -> [[f64; MAX_PARENT_NODES]; 2] {
         let [x, y] = self.parent.at[k];
         let [_, dx, dy] = monomial_slopes(x, y);
-        let tangent = |m: &[f64; TERMS]| -> Vec3 {
-            let function = |b: usize| (0..TERMS).map(|t| self.parent.functions[t][b / 4][b % 4] * m[t]).sum::<f64>();
-            // Differences of nodes: exact under a common offset.
-            (1..rolled(self.parent.n)).map(|b| (self.x[b] - self.x[0]) * function(b)).sum()
+        let slope =
+            |m: &[f64; TERMS], b: usize| (0..TERMS).map(|t| self.parent.functions[t][b / 4][b % 4] * m[t]).sum();
+        let mut slopes = [[0.0; MAX_PARENT_NODES]; 2];
+        for b in 0..rolled(self.parent.n) {
+            (slopes[0][b], slopes[1][b]) = (slope(&dx, b), slope(&dy, b));
+        }
+        slopes
+    }
+
+    /// x_xi and x_eta with these slopes; of a line the second one is z.
+    fn tangents(&self, slopes: &[[f64; MAX_PARENT_NODES]; 2]) -> [Vec3; 2] {
+        // Differences of nodes: exact under a common offset.
+        let tangent = |slopes: &[f64; MAX_PARENT_NODES]| -> Vec3 {
+            (1..rolled(self.parent.n)).map(|b| (self.x[b] - self.x[0]) * slopes[b]).sum()
         };
-        let across = if self.parent.corners() == 2 { Vec3::z() } else { tangent(&dy) };
-        tangent(&dx).cross(&across)
+        [tangent(&slopes[0]), if self.parent.corners() == 2 { Vec3::z() } else { tangent(&slopes[1]) }]
+    }
+
+    /// `rows` times the derivatives of m, the unit normal at node k, with respect to each node. With w = x_xi x x_eta,
+    /// Dm = (I - m m^T) (Dx_xi x x_eta + x_xi x Dx_eta) / |w|.
+    pub fn normal_derivatives(&self, k: usize, rows: &Mat3) -> [Mat3; MAX_PARENT_NODES] {
+        let slopes = self.slopes(k);
+        let [a, b] = self.tangents(&slopes);
+        let w = a.cross(&b);
+        let (norm, m) = (w.norm(), w.normalize());
+        let across = (rows - rows * m * m.transpose()) / norm;
+        // row . (Da x b) = (b x row) . Da, row . (a x Db) = (row x a) . Db; of a line b is fixed.
+        let rows = [0, 1, 2].map(|i| across.row(i).transpose());
+        let by = [rows.map(|row| b.cross(&row)), rows.map(|row| row.cross(&a))]
+            .map(|by| Mat3::from_columns(&by).transpose());
+        let is_line = self.parent.corners() == 2;
+        std::array::from_fn(|l| by[0] * slopes[0][l] + by[1] * if is_line { 0.0 } else { slopes[1][l] })
     }
 
     /// int N_A da of the multipliers over the whole facet, covered or not [L^2].

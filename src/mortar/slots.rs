@@ -11,8 +11,3 @@ pub const PAIR_NODES: usize = MORTAR + MAX_NODES;
 pub(super) const MORTAR_CORNER: usize = MAX_CORNERS;
 /// Slots for the corners of a pair, mortar ones in the order of the projection: what moves the maps and the edges.
 pub(super) const PAIR_CORNERS: usize = MORTAR_CORNER + MAX_CORNERS;
-
-/// The slots that a tangent looks at: all, or the non-mortar ones where the mortar side does not move.
-pub const fn slots(moves: bool) -> usize {
-    if moves { PAIR_NODES } else { MORTAR }
-}

@@ -6,6 +6,7 @@ mod support;
 
 #[macro_use]
 mod golden;
+mod compose;
 mod condensed;
 mod dual;
 mod header;

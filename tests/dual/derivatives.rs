@@ -1,14 +1,12 @@
 //! The derivatives that a tangent takes: shares of pairs from the kernels' contractions, against those of all weights and
 //! against differences.
 
-use super::facet::{Patch, Scene};
+use super::facet::{Patch, Scene, gap_rows};
 use crate::support::*;
 use stickslip::dual::{DualBasis, FacetMotion, PairShare};
-use stickslip::element::{PairNow, gap_rows};
-use stickslip::geometry::{Mat3, Vec3};
-use stickslip::mortar::{
-    ForceDerivatives, GapDerivative, PAIR_NODES, PairWeights, WeightDerivatives, facet_motion_raised,
-};
+use stickslip::element::PairNow;
+use stickslip::geometry::Vec3;
+use stickslip::mortar::{ForceDerivatives, PAIR_NODES, PairWeights, WeightDerivatives, facet_motion_raised};
 use stickslip::quadrature::DEGREE_5;
 
 /// Contractions and full derivatives are the same sums in another order, with a system each.
@@ -150,10 +148,10 @@ fn a_facet_over_a_side_at_rest_counts_as_one_pair() {
         let total = PairWeights { ab: patch.sums.mass, ..PairWeights::default() };
         let share = PairShare { forces: &mut forces, gap: &mut gap, areas: &mut areas, tractions: &mut tractions };
         facet.share(0, &total, share);
-        let (gap, n) = (GapDerivative::Facets(gap), patch.nodes);
-        let now = PairNow { weights: &total, gap: Some(&gap), offset: None };
+        let n = patch.nodes;
+        let now = PairNow { weights: &total, gap: Some(&gap) };
         let columns: Vec<_> = (0..3 * n).map(|column| (column / 3, column % 3)).collect();
-        let row = |a: usize| gap_rows(false, &now, a, (&Mat3::identity(), &Mat3::zeros()));
+        let row = |a: usize| gap_rows(&now, a);
         let gaps = columns.iter().map(|&(k, j)| (0..n).map(|a| row(a)[k].column(j).into()).collect::<Vec<Vec3>>());
         let force = |k: usize, j: usize, b: usize| Vec3::from_fn(|i, _| forces.one[k][j][i][b]);
         let of_one = columns.iter().map(|&(k, j)| (0..n).map(|b| force(k, j, b)).collect::<Vec<_>>());

@@ -4,15 +4,22 @@ use super::full::FullDerivatives;
 use crate::support::{name, numbers, points};
 use serde_json::Value;
 use stickslip::dual::{Columns, DualBasis, FacetColumns, FacetMotion, FacetSums, GROUP, PairShare};
-use stickslip::element::{PairNow, gap_rows, pair_force};
+use stickslip::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_force, row_columns};
 use stickslip::geometry::{Facet, Mat3, Vec3};
 use stickslip::mortar::{
-    ForceDerivatives, GapDerivative, MORTAR, NonmortarFrame, PAIR_NODES, PairWeights, Segment, WeightDerivatives,
-    pair_motion_raised,
+    ForceDerivatives, MORTAR, NonmortarFrame, PAIR_NODES, PairWeights, Segment, WeightDerivatives, pair_motion_raised,
 };
 use stickslip::quadrature::cell::line_of;
 use stickslip::quadrature::{DEGREE_5, Rule};
 use stickslip::shape::MAX_NODES;
+
+/// Dg_A / dx_k of one node of a pair, for every slot k.
+pub fn gap_rows(now: &PairNow, a: usize) -> [Mat3; PAIR_NODES] {
+    let node = NodeTangent { drow_dnow: Mat3::identity(), ..NodeTangent::default() };
+    let mut t = PairTangent::<3>::default();
+    row_columns((Some(now), None), &FacetResponse::new([&node; 4]), &mut t.rows);
+    std::array::from_fn(|k| t.row_x(a, k))
+}
 
 /// A pair, and the places of its mortar nodes among those of the facet.
 pub struct Pair {
@@ -200,17 +207,24 @@ impl Patch {
             let share = PairShare { forces: &mut forces, gap: &mut gap, areas: &mut areas, tractions: &mut dq };
             facet.share(pair.places.len(), &pair.weights, share);
             mortar.add_weights(&pair.weights, &pair.places);
-            mortar.add_derivatives(&dq, &forces, &pair.places);
-            let gap = GapDerivative::Facets(gap);
-            let now = PairNow { weights: &pair.weights, gap: Some(&gap), offset: None };
+            mortar.add_forces(&forces, &pair.places);
+            for (slot, of) in dq.iter().enumerate() {
+                let column = match slot.checked_sub(MORTAR) {
+                    None => (slot < self.nodes).then_some(slot),
+                    Some(c) => pair.places.get(c).map(|place| MAX_NODES + place),
+                };
+                let Some(column) = column else { continue };
+                let sum = mortar.tractions[column].as_flattened_mut().as_flattened_mut();
+                sum.iter_mut().zip(of.as_flattened().as_flattened()).for_each(|(sum, of)| *sum += of);
+            }
+            let now = PairNow { weights: &pair.weights, gap: Some(&gap) };
             let slots = (0..self.nodes).map(|k| (k, k));
             let slots = slots.chain(pair.places.iter().enumerate().map(|(c, p)| (MORTAR + c, self.nodes + p)));
             for (slot, node) in slots {
                 for j in 0..3 {
                     let column = 3 * node + j;
                     for a in 0..self.nodes {
-                        motion.gaps[column][a] +=
-                            gap_rows(true, &now, a, (&Mat3::identity(), &Mat3::zeros()))[slot].column(j);
+                        motion.gaps[column][a] += gap_rows(&now, a)[slot].column(j);
                         motion.diagonal[column][a] += areas[slot][j][a];
                         motion.forces[column][a] += Vec3::from_fn(|i, _| forces.one[slot][j][i][a]);
                     }

@@ -8,9 +8,7 @@ use stickslip::capi::*;
 use stickslip::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_force, row_columns};
 use stickslip::geometry::{Facet, Mat3, Vec3};
 use stickslip::law::{Friction, Node, SlipMeasure, Special};
-use stickslip::mortar::{
-    self, AlongNormal, GapDerivative, NonmortarFrame, PairWeights, Segment, WeightDerivatives, pair_motion,
-};
+use stickslip::mortar::{self, AlongNormal, NonmortarFrame, PairWeights, Segment, WeightDerivatives, pair_motion};
 use stickslip::quadrature::{DEGREE_5, DEGREE_10};
 
 /// Asserts that the second call of `work` allocates nothing; the first one may set up what lasts (the ABI's
@@ -316,9 +314,8 @@ fn rust_element_calls_allocate_nothing() {
                 let mut t = PairTangent::default();
                 let motion = pair_motion((&frame, &segment, rule), &weights, &nodes.traction, &mut t.forces);
                 for gap in [gap, motion] {
-                    let gap = GapDerivative::Facets(gap);
-                    let now = PairNow { weights: &weights, gap: Some(&gap), offset: None };
-                    row_columns::<3>(true, (Some(&now), Some(&weights)), &nodes, &mut t.rows);
+                    let now = PairNow { weights: &weights, gap: Some(&gap) };
+                    row_columns::<3>((Some(&now), Some(&weights)), &nodes, &mut t.rows);
                 }
                 let g = mortar::gap(&weights, &one, &two);
                 pair_force(&weights, &g)[0].x + t.row_x(0, 0)[(0, 0)]

@@ -15,7 +15,7 @@ use super::surface::Surface;
 use crate::error::Result;
 use crate::geometry::{Mat3, Plane, Vec3};
 use crate::memory::{self, Stored};
-use crate::mortar::{GapDerivative, Segment, gap};
+use crate::mortar::{GapBlocks, Segment, gap};
 use crate::quadrature::Rule;
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 
@@ -95,7 +95,7 @@ impl FacetGaps {
     }
 
     /// What the derivative of g - g_0 has of g_0 on facet `f` at x1.
-    pub(crate) fn motion(&self, one: &Surface, f: usize, x1: &[Vec3]) -> Result<Option<GapDerivative>> {
+    pub(crate) fn motion(&self, one: &Surface, f: usize, x1: &[Vec3]) -> Result<Option<GapBlocks>> {
         let Some(shares) = self.0.get(f).filter(|shares| is_open(shares)) else { return Ok(None) };
         let (plane, mut blocks) = (plane(one, f, x1)?, [[[[0.0; MAX_CORNERS]; 3]; 3]; MAX_NODES]);
         for (a, share) in shares.iter().enumerate() {
@@ -104,7 +104,7 @@ impl FacetGaps {
                 blocks[k][i][j][a] = -turned[k][(i, j)];
             }
         }
-        Ok(Some(GapDerivative::Turning(blocks)))
+        Ok(Some(blocks))
     }
 
     /// Facets, or 0.

@@ -3,7 +3,7 @@
 use crate::shape::{MAX_NODES, MAX_PARENT_NODES, Parent};
 
 /// A facet's nodes as indices into the surface.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FacetNodes {
     /// Indices; entries beyond `len` repeat the first one.
     pub nodes: [usize; MAX_NODES],

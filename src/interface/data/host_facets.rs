@@ -6,9 +6,25 @@ use super::pairs::ParentRecord;
 use super::surface::Surface;
 use crate::dual::DualBasis;
 use crate::error::{Error, Result};
-use crate::geometry::Vec3;
+use crate::geometry::{Mat3, Vec3};
 use crate::memory::Stored;
 use crate::mortar::{ParentFacet, ParentWeights};
+use crate::normal::corner_normal_derivatives;
+use crate::shape::MAX_PARENT_NODES;
+
+/// Derivatives of the normal of a facet of the host at one of its nodes, by those of its nodes that it depends on.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NormalDerivatives {
+    of: [(usize, Mat3); MAX_PARENT_NODES],
+    len: usize,
+}
+
+impl NormalDerivatives {
+    /// Each with the node's place in the facet.
+    pub fn as_slice(&self) -> &[(usize, Mat3)] {
+        &self.of[..self.len]
+    }
+}
 
 impl Surface {
     /// The facets of the host: how many there are.
@@ -77,6 +93,30 @@ impl Surface {
         };
         let named = |e: Error| Error::new(e.kind, text!("{} facet {f}: {}", self.side, e.message));
         DualBasis::of_parent(parents.facets[f].parent, area, weights).map_err(named)
+    }
+
+    /// `rows` times the derivatives of the unit normal of facet f of the host at its k-th node.
+    pub fn normal_derivatives(&self, (f, k): (usize, usize), x: &[Vec3], rows: &Mat3) -> NormalDerivatives {
+        let mut d = self.normal_columns((f, k));
+        match &self.parents {
+            None => d.of[..d.len].copy_from_slice(&corner_normal_derivatives(&self.facet(f, x), k, rows)),
+            Some(parents) => {
+                let of_nodes = parents.at(f, x).normal_derivatives(k, rows);
+                d.of.iter_mut().zip(of_nodes).for_each(|(d, of)| d.1 = of);
+            }
+        }
+        d
+    }
+
+    /// The same without numbers: which nodes there are.
+    pub fn normal_columns(&self, (f, k): (usize, usize)) -> NormalDerivatives {
+        let (n, mut d) = (self.host_nodes(f).len(), NormalDerivatives::default());
+        let corner = |step: usize| (k + step) % n;
+        d.len = if self.parents.is_some() { n } else { 3 };
+        for (l, of) in d.of.iter_mut().enumerate() {
+            of.0 = if self.parents.is_some() { l } else { corner([0, 1, n - 1][l % 3]) };
+        }
+        d
     }
 
     /// The first facet at or after which another facet of the host begins.

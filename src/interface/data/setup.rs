@@ -250,12 +250,6 @@ fn put_parents<const N: usize>(
     if !matches!(options.scheme, Scheme::Segments) {
         return unsupported(text!("options.element_points with {kind}: they are integrated over overlaps; leave it 0"));
     }
-    if options.form == Form::Augmented {
-        return unsupported(text!("the augmented form with {kind}; take STICKSLIP_FORM_MULTIPLIER"));
-    }
-    if options.follows_normals() {
-        return unsupported(text!("normals of now with {kind}; take STICKSLIP_NORMALS_COMMITTED"));
-    }
     if has_lines && options.tangent == Tangent::FrozenNormals {
         return unsupported("STICKSLIP_TANGENT_FROZEN_NORMALS with lines; take the exact tangent".into());
     }

@@ -6,16 +6,16 @@ use crate::element::NodeTangent;
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
-use crate::interface::data::effects::Opposite;
 use crate::interface::data::extent::Extent;
 use crate::interface::data::options::Tangent;
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::respond::Responses;
-use crate::interface::tangent::blocks::{Numbers, Room, Task, of_facets};
+use crate::interface::tangent::blocks::{Room, of_facets};
 use crate::interface::tangent::derivatives::PairDerivatives;
 use crate::interface::tangent::emission::{Blocks, Directions, Emitter, MortarBlock, Place, Span, Weights};
-use crate::interface::tangent::parents::{self, ParentNumbers, ParentRoom};
+use crate::interface::tangent::parents::{self, ParentRoom};
+use crate::interface::tangent::task::{Numbers, Task};
 use crate::interface::tangent::union::{Pairs, UnionPair, Walk};
 use crate::memory::{self, Store};
 use crate::shape::{MAX_CORNERS, MAX_NODES};
@@ -68,6 +68,7 @@ impl Taker<'_> {
         let nodes = match span {
             Span::Own => &self.sides[0].facets[self.facet],
             Span::Mortar(j) => &self.sides[1].facets[j],
+            Span::Group(ref nodes) => nodes,
         };
         let (mut places, n1) = ([0; MAX_NODES], self.sides[0].len());
         for (k, place) in places.iter_mut().enumerate().take(nodes.len) {
@@ -123,11 +124,11 @@ pub fn each_facet<const N: usize>(
 ) -> Result<()> {
     let mut weights = FacetWeights::default();
     if given.setup.has_parents() {
-        return each_parent((given, normals), active, &mut weights, take);
+        return each_parent((given, normals), (active, responses), &mut weights, take);
     }
     let ((one, two), rule) = (given.setup.surfaces(), given.setup.options.rule);
     // Heat has rows and columns of the mortar side where forces have none, too.
-    let motion = PairDerivatives { opposite: Opposite::Moves, surface: None, tangent: Tangent::Exact, rule };
+    let motion = PairDerivatives { surface: None, tangent: Tangent::Exact, rule };
     let mut nodes = memory::filled(NodeTangent::<N>::default(), one.len())?;
     let mut room = Room::default();
     for pairs in active.pairs.chunk_by(|p, q| p.one == q.one) {
@@ -161,7 +162,7 @@ pub fn each_facet<const N: usize>(
 /// Of quadratic facets and lines: forces of tractions that are 1 at one multiplier, two multipliers at a time.
 fn each_parent<const N: usize>(
     (given, normals): (Given<N>, &[Vec3]),
-    active: &Active,
+    (active, responses): (&Active, &Responses<N>),
     to: &mut FacetWeights,
     take: &mut dyn FnMut(&FacetWeights) -> Result<()>,
 ) -> Result<()> {
@@ -170,8 +171,7 @@ fn each_parent<const N: usize>(
     let (mut room, mut of_facet): (_, Vec<UnionPair>) = (ParentRoom::default(), Vec::new());
     let all = Pairs::Parents([&active.parents, &[]]);
     let options = &given.setup.options;
-    let opposite = given.setup.effects.opposite;
-    let motion = PairDerivatives { opposite, surface: None, tangent: Tangent::Exact, rule: options.rule };
+    let motion = PairDerivatives { surface: None, tangent: Tangent::Exact, rule: options.rule };
     let mut walk = Walk::through(all, 0..usize::MAX);
     while let Some(f) = walk.next(&mut of_facet)? {
         let own = one.host_nodes(f);
@@ -181,8 +181,18 @@ fn each_parent<const N: usize>(
             for (i, a) in (a..a + here).enumerate() {
                 nodes[own[a]].traction[i] = 1.0;
             }
-            let numbers = ParentNumbers { x1: &active.x1, nodes: &nodes, carried: &[], active: Some(active), motion };
-            parents::fill((given, normals), (f, all, &of_facet), (Some(&numbers), true), &mut room)?;
+            let numbers = Numbers {
+                x1: &active.x1,
+                sums: &[],
+                responses,
+                nodes: &nodes,
+                active: Some(active),
+                motion,
+                turns: None,
+            };
+            let (pairs, numbers) = (all, Some(&numbers));
+            let task = Task { given, normals, pairs, extent: Extent::Part, moves: true, numbers };
+            parents::fill(task, &of_facet, &mut room)?;
             let table = room.table();
             if a == 0 {
                 to.begin(own, multipliers, table.mortar.iter().map(|known| one.len() + known.node))?;

@@ -14,7 +14,6 @@ use crate::interface::tangent::augmented::dtraction;
 use crate::interface::tangent::by_equations::Sink;
 use crate::law::{HeatFlow, HeatNode};
 use crate::memory::{self, Store};
-use crate::mortar::GapDerivative;
 use nalgebra::SMatrix;
 
 /// Where columns stand in the host's system.
@@ -136,7 +135,7 @@ fn turn<const N: usize>(at: &Place<N>, rows: &mut [Row]) -> Result<()> {
     let one = &at.given.setup.nonmortar;
     for (part, facet) in one.facets.iter().enumerate() {
         let turned = at.given.history().facet_gaps.motion(one, part, at.x[0])?;
-        let Some(GapDerivative::Turning(blocks)) = turned else { continue };
+        let Some(blocks) = turned else { continue };
         // A line's two nodes are those of its quadrilateral, each twice; a triangle has zeros for a fourth one.
         let (nodes, columns) = match &one.parents {
             None => (facet, facet.nodes),

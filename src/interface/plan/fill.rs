@@ -89,8 +89,8 @@ struct State {
     /// The rows of their displacements, and of their multipliers.
     own: [Target; MAX_NODES],
     multipliers: [Target; MAX_NODES],
-    /// The mortar facet at hand, how many nodes it has, and their rows.
-    mortar: Option<usize>,
+    /// The mortar nodes at hand, how many they are, and their rows.
+    mortar: Option<Span>,
     mortar_len: usize,
     mortar_rows: [Target; MAX_NODES],
     /// Whether one of them is another chunk's.
@@ -142,25 +142,29 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
         match span {
             Span::Own => self.setup.nonmortar.facets[self.state.facet].nodes[k],
             Span::Mortar(j) => self.layout.nodes.mortar(self.setup.mortar.facets[j].nodes[k]),
+            Span::Group(nodes) => self.layout.nodes.mortar(nodes.nodes[k]),
         }
     }
 
     fn len_of(&self, span: Span) -> usize {
         match span {
             Span::Own => self.state.len,
-            Span::Mortar(_) => self.state.mortar_len,
+            Span::Mortar(_) | Span::Group(_) => self.state.mortar_len,
         }
     }
 
-    /// Looks at a span, if it is a mortar facet and not that at hand.
+    /// Looks at a span, if it is of mortar nodes and not that at hand.
     #[inline]
     fn look(&mut self, span: Span) {
-        let Span::Mortar(j) = span else { return };
-        if self.state.mortar == Some(j) {
+        let facet = match span {
+            Span::Own => return,
+            Span::Mortar(j) => &self.setup.mortar.facets[j],
+            Span::Group(ref nodes) => nodes,
+        };
+        if self.state.mortar == Some(span) {
             return;
         }
-        let facet = &self.setup.mortar.facets[j];
-        (self.state.mortar, self.state.mortar_len, self.state.is_foreign) = (Some(j), facet.len, false);
+        (self.state.mortar, self.state.mortar_len, self.state.is_foreign) = (Some(span), facet.len, false);
         for (k, &node) in facet.as_slice().iter().enumerate() {
             let target = self.touch(Place::Displacement(self.layout.nodes.mortar(node)));
             self.state.is_foreign |= target.is_none();
@@ -204,7 +208,7 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
                 return self.search((rows, of_multipliers), (columns, by_multipliers));
             }
             (Span::Mortar(j), Span::Mortar(_)) => &scatter.among[j],
-            (Span::Own, Span::Mortar(_)) => {
+            (Span::Own, Span::Mortar(_) | Span::Group(_)) => {
                 for k in 0..MAX_NODES {
                     let from = of_mortar(scatter, self.state.places[k], self.state.has_equations[k]);
                     let from = if of_multipliers { &from.row } else { &from.column };
@@ -214,7 +218,7 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
                 }
                 return;
             }
-            (Span::Mortar(_), Span::Own) => {
+            (Span::Mortar(_) | Span::Group(_), Span::Own) => {
                 for b in 0..MAX_NODES {
                     let from = of_mortar(scatter, self.state.places[b], self.state.has_equations[b]);
                     let from = if by_multipliers { &from.multipliers } else { &from.forces };
@@ -224,6 +228,8 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
                 }
                 return;
             }
+            // Mortar nodes of several facets have nothing among each other but what comes by `mortar`.
+            _ => return self.search((rows, of_multipliers), (columns, by_multipliers)),
         };
         for b in 0..MAX_NODES {
             for k in 0..MAX_NODES {
@@ -261,7 +267,7 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
         let node_rows = match (rows, of_multipliers) {
             (Span::Own, true) => multipliers,
             (Span::Own, false) => own,
-            (Span::Mortar(_), _) => mortar_rows,
+            (Span::Mortar(_) | Span::Group(_), _) => mortar_rows,
         };
         let pieces = &mut *self.hand.pieces;
         let lacks = simd::dispatch(Add { pieces, rows: node_rows, starts, shape, values, nothing });

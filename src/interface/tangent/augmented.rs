@@ -2,14 +2,14 @@
 //! projected traction, with its derivative n_AB (dp/dsigma) r Dg_A. Of the multiplier form it is n_AB lambda_N Dnu_A where nodes
 //! have one multiplier and normals follow the motion.
 
-use crate::element::{PairNow, frozen_rows, gap_rows};
+use super::emission::NodeBlock;
+use super::read::{ReadTable, matrix};
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::multiplier::direction;
 use crate::interface::pairing::given::Given;
 use crate::law::NodeResponse;
 use crate::memory::Store;
-use crate::mortar::{MORTAR, PAIR_NODES, PairWeights};
 
 /// dp/dg_now and dp/dg_previous of a node.
 pub fn dtraction<const N: usize>(given: Given<N>, a: usize, response: &NodeResponse<N>, nu: Vec3) -> (Mat3, Mat3) {
@@ -55,50 +55,26 @@ impl NodeCouplings {
         self.nodes.capacity() * size_of::<Coupling>()
     }
 
-    /// Adds a pair in which A is the k-th non-mortar node: these first slots of it. `dp` = (dp/dg_now, dp/dg_previous).
-    pub fn add_pair(
-        &mut self,
-        k: usize,
-        nodes: &[Option<usize>],
-        (now, previous): (Option<&PairNow>, Option<&PairWeights>),
-        dp: (Mat3, Mat3),
-    ) -> Result<()> {
-        self.add_gap(k, nodes, (now, previous), dp)?;
-        self.add_forces(k, nodes, now)
-    }
-
-    /// Adds what p_A acts on, of such a pair: these first slots of it.
-    pub fn add_forces(&mut self, k: usize, nodes: &[Option<usize>], now: Option<&PairNow>) -> Result<()> {
-        let Some(PairNow { weights: w, .. }) = now else { return Ok(()) };
-        for (j, node) in nodes.iter().enumerate() {
-            let Some(node) = *node else { continue };
-            let coupling = self.find(node)?;
-            coupling.weight += if j < MORTAR { w.ab[k][j] } else { -w.ac[k][j - MORTAR] };
-            coupling.acts = true;
-        }
+    /// Adds a node that p_A acts on.
+    pub fn add_force(&mut self, node: usize, weight: f64) -> Result<()> {
+        let coupling = self.find(node)?;
+        coupling.weight += weight;
+        coupling.acts = true;
         Ok(())
     }
 
-    /// Adds what p_A depends on: the gap of the k-th non-mortar node of a pair.
+    /// Adds what p_A depends on: the gap of the k-th node of a facet. `dp` = (dp/dg_now, dp/dg_previous); `None`: without numbers.
     pub fn add_gap(
         &mut self,
-        k: usize,
-        nodes: &[Option<usize>],
-        (now, previous): (Option<&PairNow>, Option<&PairWeights>),
-        dp: (Mat3, Mat3),
+        (table, k): (&dyn ReadTable, usize),
+        dp: Option<(Mat3, Mat3)>,
+        row: &mut Vec<NodeBlock>,
     ) -> Result<()> {
-        let moves = nodes.len() == PAIR_NODES;
-        let by_now = now.map(|now| gap_rows(moves, now, k, (&dp.0, &dp.1)));
-        let by_previous = previous.map(|weights| frozen_rows(moves, weights, k, &dp.1));
-        for (j, node) in nodes.iter().enumerate() {
-            let Some(node) = *node else { continue };
-            let coupling = self.find(node)?;
-            coupling.depends = true;
-            for rows in [&by_now, &by_previous].into_iter().flatten() {
-                coupling.dtraction += rows[j];
-            }
+        if let Some((now, previous)) = &dp {
+            table.gap_row(k, [now, previous], row)?;
         }
-        Ok(())
+        let of = |column: usize| dp.map_or(Mat3::zeros(), |_| matrix(&row[column]));
+        table.nodes().iter().try_for_each(|&(column, node)| self.add_traction(node, of(column)))
     }
 
     /// Adds what p_A depends on a node by.

@@ -52,6 +52,7 @@ impl<'a, const N: usize> ByEquations<'a, N> {
         match span {
             Span::Own => self.own,
             Span::Mortar(j) => Equations::of(&two.facets[j], &two.equations),
+            Span::Group(nodes) => Equations::of(&nodes, &two.equations),
         }
     }
 

@@ -1,47 +1,42 @@
 //! What carried nodes (`carried.rs`) add to the tangent.
 
 use super::augmented::{NodeCouplings, dtraction};
-use super::emission::{Emitter, Place};
-use super::union::UnionPair;
-use crate::element::{FacetResponse, NodeTangent, PairNow, RowColumns, row_columns};
+use super::emission::{Emitter, NodeBlock, Place};
+use super::read::{ReadTable, square};
+use crate::element::NodeTangent;
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::carried::{multiplier_share, transfer};
 use crate::law::NodeResponse;
-use crate::mortar::{PAIR_NODES, PairWeights, slots};
-use crate::shape::MAX_CORNERS;
 use nalgebra::SMatrix;
 
-/// What the gaps of a pair's carried nodes add to their carriers' rows. `carried`: which nodes are; `None` for the pattern
+/// What the gaps of a facet's carried nodes add to their carriers' rows. `carried`: which nodes are; `None` for the pattern
 /// alone.
 pub fn rows<const N: usize>(
-    pair: &UnionPair,
-    (now, previous): (Option<&PairNow>, Option<&PairWeights>),
+    (f, table): (usize, &dyn ReadTable),
     carried: Option<(&[bool], &[NodeTangent<N>])>,
+    row: &mut Vec<NodeBlock>,
     emitter: &mut Emitter<N>,
-) {
+) -> Result<()> {
     let (given, normals) = (emitter.given, emitter.normals);
-    let moves = given.setup.effects.moves();
-    for (k, &a) in given.setup.nonmortar.facets[pair.one].as_slice().iter().enumerate() {
+    let one = &given.setup.nonmortar;
+    for (k, &a) in one.host_nodes(f).iter().enumerate().take(one.multipliers(f)) {
         for &(b, w) in given.carriers_of(a) {
-            let mut rows: RowColumns<N> = [[[[0.0; MAX_CORNERS]; N]; 3]; PAIR_NODES];
-            if let Some((_, nodes)) = carried.filter(|(carried, _)| carried[a]) {
+            let share = carried.filter(|(carried, _)| carried[a]).map(|(_, nodes)| {
                 let t = transfer(given, a, normals[a], normals[b]) * w;
-                let (zero, mut share) = (NodeTangent::default(), NodeTangent::default());
-                share.drow_dnow = nodes[b].drow_dnow * t;
-                share.drow_dprevious = nodes[b].drow_dprevious * t;
-                let slots = std::array::from_fn(|j| if j == k { &share } else { &zero });
-                row_columns(moves, (now, previous), &FacetResponse::new(slots), &mut rows);
+                [nodes[b].drow_dnow * t, nodes[b].drow_dprevious * t].map(|d| square(&d))
+            });
+            if let Some([now, previous]) = &share {
+                table.gap_row(k, [now, previous], row)?;
             }
-            let values = rows.map(|columns| columns.map(|rows| rows.map(|nodes| nodes[k])));
-            for (node, values) in pair.slots(given.setup).iter().zip(&values).take(slots(moves)) {
-                if let Some(node) = *node {
-                    emitter.node_row(b, node, values);
-                }
+            for &(column, node) in table.nodes() {
+                let block = share.map_or_else(NodeBlock::default, |_| row[column]);
+                emitter.node_rows(b, &[(0, Place::Displacement(node))], &mut [block]);
             }
         }
     }
+    Ok(())
 }
 
 /// Columns of the carriers' multipliers in A's row.
@@ -58,26 +53,20 @@ pub fn multipliers<const N: usize>(a: usize, carried: bool, emitter: &mut Emitte
     }
 }
 
-/// Augmented form: the gaps of a pair's carried nodes in their carriers' tractions.
+/// Augmented form: the gap of the k-th node of a facet, A, if it is carried, in its carriers' tractions.
 pub fn couple<const N: usize>(
     (given, normals): (Given<N>, &[Vec3]),
-    pair: &UnionPair,
-    (now, previous): (Option<&PairNow>, Option<&PairWeights>),
-    carried: Option<(&[bool], &[NodeResponse<N>])>,
+    (a, k, table): (usize, usize, &dyn ReadTable),
+    (carried, row): (Option<(&[bool], &[NodeResponse<N>])>, &mut Vec<NodeBlock>),
     couplings: &mut [NodeCouplings],
 ) -> Result<()> {
-    let nodes = pair.slots(given.setup);
-    let nodes = &nodes[..slots(given.setup.effects.moves())];
-    for (k, &a) in given.setup.nonmortar.facets[pair.one].as_slice().iter().enumerate() {
-        for &(b, w) in given.carriers_of(a) {
-            let mut dp = (Mat3::zeros(), Mat3::zeros());
-            if let Some((_, responses)) = carried.filter(|(carried, _)| carried[a]) {
-                let t = transfer(given, a, normals[a], normals[b]) * w;
-                let (on_now, on_previous) = dtraction(given, b, &responses[b], normals[b]);
-                dp = (on_now * t, on_previous * t);
-            }
-            couplings[b].add_gap(k, nodes, (now, previous), dp)?;
-        }
+    for &(b, w) in given.carriers_of(a) {
+        let dp = carried.filter(|(carried, _)| carried[a]).map(|(_, responses)| {
+            let t = transfer(given, a, normals[a], normals[b]) * w;
+            let (on_now, on_previous) = dtraction(given, b, &responses[b], normals[b]);
+            (on_now * t, on_previous * t)
+        });
+        couplings[b].add_gap((table, k), dp, row)?;
     }
     Ok(())
 }

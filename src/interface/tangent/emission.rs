@@ -4,16 +4,14 @@
 //! Which blocks there are depends on the pairs, never on the values, so a pattern and a fill always agree.
 
 use super::augmented::NodeCouplings;
-use super::facet_tangent::FacetNow;
-use super::union::UnionPair;
 use crate::dual::Columns;
-use crate::element::PairTangent;
 use crate::geometry::Vec3;
 use crate::interface::data::extent::Extent;
+use crate::interface::data::facet_nodes::FacetNodes;
 use crate::interface::data::options::{Form, MultiplierBasis};
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::node::is_out_of_reach;
-use crate::mortar::{MORTAR, PairWeights};
+use crate::mortar::{ForceDerivatives, MORTAR};
 use crate::shape::{MAX_CORNERS, MAX_NODES, MAX_PARENT_NODES};
 use nalgebra::SMatrix;
 
@@ -24,6 +22,8 @@ pub enum Span {
     Own,
     /// Those of this mortar facet.
     Mortar(usize),
+    /// These mortar nodes of several facets.
+    Group(FacetNodes),
 }
 
 /// A node of the rows or columns of a block.
@@ -46,6 +46,9 @@ pub struct MortarBlock<'a> {
     /// `[column][j][i][C]`, the facet's own nodes first, in [`MAX_NODES`] places.
     pub values: &'a [Columns],
 }
+
+/// d force / d x of columns, `[k][j][i][B]`, and the weights of the facet's multipliers there, `[A][k]`.
+pub type FacetNow<'a> = (&'a [[[[f64; MAX_NODES]; 3]; 3]], &'a [[f64; MAX_NODES]; MAX_CORNERS]);
 
 /// `[j][i]`: component i of a row with respect to component j of a column's node, and a fourth number that nobody takes.
 pub type NodeBlock = [[f64; 4]; 3];
@@ -155,35 +158,29 @@ impl<const N: usize> Emitter<'_, '_, N> {
         }
     }
 
-    /// A pair's rows and columns of the mortar side; with dual multipliers forces on it are the facet's (`dual_facet.rs`).
+    /// Rows of a mortar facet that its pair with a facet has; with dual multipliers they are of all pairs together.
     #[inline(never)]
-    pub fn pair(&mut self, pair: &UnionPair, now: Option<&PairWeights>, t: &PairTangent<N>) {
-        let mortar = Span::Mortar(pair.two);
-        if now.is_some() && self.given.setup.options.differentiates_weights() {
-            self.taker.forces(Span::Own, mortar, &t.forces.one[MORTAR..]);
-            if self.given.setup.options.basis == MultiplierBasis::Standard {
-                self.taker.forces(mortar, Span::Own, &t.forces.two[..MORTAR]);
-                self.taker.forces(mortar, mortar, &t.forces.two[MORTAR..]);
-            }
+    pub fn pair(&mut self, two: usize, forces: &ForceDerivatives) {
+        let (options, mortar) = (&self.given.setup.options, Span::Mortar(two));
+        if options.differentiates_weights() && options.basis == MultiplierBasis::Standard {
+            self.taker.forces(mortar, Span::Own, &forces.two[..MORTAR]);
+            self.taker.forces(mortar, mortar, &forces.two[MORTAR..]);
         }
-        if let (Some(weights), Form::Multiplier) = (now, self.given.setup.options.form) {
-            self.multipliers(pair.one, mortar, &weights.ac.map(|row| row.map(|n| -n)));
-        }
-        self.facet_rows(pair.one, mortar, &t.rows[MORTAR..]);
     }
 
-    /// What a facet's pairs have in common: rows and columns of the non-mortar side. `now`: of the pairs active now.
+    /// Columns of a facet with all of its pairs, in its own rows; multipliers act on the columns' nodes. `now`: of nodes of pairs
+    /// active now, the forces and the weights.
     #[inline(never)]
-    pub fn facet(&mut self, f: usize, now: Option<FacetNow>, rows: &[[[[f64; MAX_CORNERS]; N]; 3]]) {
+    pub fn facet(&mut self, f: usize, columns: Span, now: Option<FacetNow>, rows: &[[[[f64; MAX_CORNERS]; N]; 3]]) {
         if let Some((forces, weights)) = now {
             if self.given.setup.options.differentiates_weights() {
-                self.taker.forces(Span::Own, Span::Own, forces);
+                self.taker.forces(Span::Own, columns, forces);
             }
             if self.given.setup.options.form == Form::Multiplier {
-                self.multipliers(f, Span::Own, weights);
+                self.multipliers(f, columns, weights);
             }
         }
-        self.facet_rows(f, Span::Own, rows);
+        self.facet_rows(f, columns, rows);
     }
 
     /// Derivatives of the rows of a facet's multipliers, in each column component by component.

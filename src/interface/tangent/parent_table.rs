@@ -2,6 +2,7 @@
 //! over its own nodes and those of its mortar facets (docs/formulation.md 12.5).
 
 use super::emission::NodeBlock;
+use super::read::{ReadTable, matrix};
 use super::union::UnionPair;
 use crate::dual::{DualBasis, corner_shares};
 use crate::error::Result;
@@ -33,6 +34,10 @@ pub struct ParentTable {
     pub multipliers: usize,
     /// Mortar nodes.
     pub mortar: Vec<MortarNode>,
+    /// Whether a pair is active.
+    pub acts: bool,
+    /// The columns, each with its node over both surfaces.
+    nodes: Vec<(usize, usize)>,
     /// Derivatives of forces with fixed tractions, `[row][column]`.
     forces: Vec<NodeBlock>,
     /// Dg, `[multiplier][column]`; the fourth number: of the covered area.
@@ -69,10 +74,6 @@ fn add<const B: usize>(to: &mut NodeBlock, of: &[[[f64; 4]; B]; 3], b: usize) {
             to[j][i] += of[j][b][i];
         }
     }
-}
-
-fn matrix(block: &NodeBlock) -> Mat3 {
-    Mat3::from_fn(|i, j| block[j][i])
 }
 
 fn set(to: &mut NodeBlock, of: &Mat3) {
@@ -114,15 +115,50 @@ impl<'a> DualParent<'a> {
     }
 }
 
+impl ReadTable for ParentTable {
+    fn nodes(&self) -> &[(usize, usize)] {
+        &self.nodes
+    }
+
+    fn acts_on(&self, column: usize) -> bool {
+        column.checked_sub(self.own).map_or(self.acts, |k| self.mortar[k].pairs != 0)
+    }
+
+    fn weight(&self, column: usize, k: usize) -> f64 {
+        self.now.get(k * self.columns() + column).copied().unwrap_or_default() // none in a pattern
+    }
+
+    fn gap_row(&self, a: usize, [now, previous]: [&Mat3; 2], row: &mut Vec<NodeBlock>) -> Result<()> {
+        let columns = a * self.columns()..(a + 1) * self.columns();
+        let (start, end) = (columns.start, columns.end);
+        memory::refill(row, NodeBlock::default(), self.columns())?;
+        for ((to, gap), n) in row.iter_mut().zip(&self.gaps[start..end]).zip(&self.previous[columns]) {
+            for j in 0..3 {
+                for i in 0..3 {
+                    to[j][i] = (0..3).map(|k| now[(i, k)] * gap[j][k]).sum::<f64>() + previous[(i, j)] * n;
+                }
+            }
+        }
+        let Some(offsets) = self.offsets.get(start..end) else { return Ok(()) };
+        let (nu, in_previous) = (&self.along.0[a], self.along.1);
+        let along = if in_previous { (now + previous) * nu } else { now * nu };
+        for (to, slope) in row.iter_mut().zip(offsets) {
+            (0..9).for_each(|ij| to[ij % 3][ij / 3] += along[ij / 3] * slope[ij % 3]);
+        }
+        Ok(())
+    }
+}
+
 impl ParentTable {
-    /// Begins with these nodes, in the memory of the facet before.
+    /// Begins with facet f of the host and these nodes, in the memory of the facet before.
     pub fn begin(
         &mut self,
-        (own, multipliers): (usize, usize),
+        (one, f): (&Surface, usize),
         mortar: impl Iterator<Item = MortarNode>,
         has_numbers: bool,
     ) -> Result<()> {
-        (self.own, self.multipliers) = (own, multipliers);
+        let (own, multipliers) = (one.host_nodes(f), one.multipliers(f));
+        (self.own, self.multipliers, self.acts) = (own.len(), multipliers, false);
         self.mortar.clear();
         for new in mortar {
             match self.mortar.iter_mut().find(|known| known.node == new.node) {
@@ -130,6 +166,9 @@ impl ParentTable {
                 None => self.mortar.store(new)?,
             }
         }
+        let mortar = self.mortar.iter().map(|known| one.len() + known.node);
+        self.nodes.clear();
+        self.nodes.store_all(own.iter().copied().chain(mortar).enumerate())?;
         let n = if has_numbers { self.columns() } else { 0 };
         memory::refill(&mut self.forces, NodeBlock::default(), n * n)?;
         memory::refill(&mut self.gaps, NodeBlock::default(), multipliers * n)?;
@@ -166,25 +205,6 @@ impl ParentTable {
     pub fn force_row(&self, row: usize) -> &[NodeBlock] {
         let columns = self.columns();
         self.forces.get(row * columns..(row + 1) * columns).unwrap_or_default()
-    }
-
-    /// Of the row of multiplier A, by how it depends on its gaps of now and of t_n: with respect to each node.
-    pub fn gap_row(&self, a: usize, [now, previous]: [&Mat3; 2], row: &mut [NodeBlock]) {
-        let columns = a * self.columns()..(a + 1) * self.columns();
-        let (start, end) = (columns.start, columns.end);
-        for ((to, gap), n) in row.iter_mut().zip(&self.gaps[start..end]).zip(&self.previous[columns]) {
-            for j in 0..3 {
-                for i in 0..3 {
-                    to[j][i] = (0..3).map(|k| now[(i, k)] * gap[j][k]).sum::<f64>() + previous[(i, j)] * n;
-                }
-            }
-        }
-        let Some(offsets) = self.offsets.get(start..end) else { return };
-        let (nu, in_previous) = (&self.along.0[a], self.along.1);
-        let along = if in_previous { (now + previous) * nu } else { now * nu };
-        for (to, slope) in row.iter_mut().zip(offsets) {
-            (0..9).for_each(|ij| to[ij % 3][ij / 3] += along[ij / 3] * slope[ij % 3]);
-        }
     }
 
     /// Df of one node with respect to another.

@@ -6,8 +6,10 @@ use super::emission::{Blocks, Emitter, NodeBlock, Place};
 use super::fields::Fields;
 use super::lines::add_lines;
 use super::parent_table::{DualParent, MortarNode, ParentTable, bit};
-use super::union::{Pairs, UnionPair};
-use crate::element::{NodeTangent, ParentPair};
+use super::read::{ReadTable, square};
+use super::task::{Numbers, Task};
+use super::union::UnionPair;
+use crate::element::ParentPair;
 use crate::error::Result;
 use crate::features;
 use crate::geometry::{Mat3, Vec3};
@@ -16,18 +18,16 @@ use crate::interface::data::effects::Opposite;
 use crate::interface::data::host_facets::parents_at;
 use crate::interface::data::lines::{Lines, line};
 use crate::interface::data::offsets;
-use crate::interface::data::options::{MultiplierBasis, Tangent};
+use crate::interface::data::options::{Form, MultiplierBasis, Tangent};
 use crate::interface::data::parents::Parents;
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::given::Given;
 use crate::interface::pairing::overlaps::FacetOverlaps;
-use crate::interface::stages::carried::transfer;
 use crate::interface::stages::sums::in_previous_gaps;
 use crate::memory::{self, Store};
-use crate::mortar::{GapDerivative, MORTAR, SubMotion, rule_for, sub_motion};
+use crate::mortar::{MORTAR, SubMotion, rule_for, sub_motion};
 use crate::quadrature::Rule;
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
-use nalgebra::SMatrix;
 use std::ops::Range;
 
 /// Where a facet's tangent is made.
@@ -40,20 +40,6 @@ pub struct ParentRoom {
     overlaps: FacetOverlaps,
 }
 
-/// What its numbers are made of.
-pub struct ParentNumbers<'a, const N: usize> {
-    /// Non-mortar positions.
-    pub x1: &'a [Vec3],
-    /// What the pairs must know of the nodes.
-    pub nodes: &'a [NodeTangent<N>],
-    /// Which nodes are carried; empty where none is.
-    pub carried: &'a [bool],
-    /// The pairs whose weights are differentiated; `None`: no weights are.
-    pub active: Option<&'a Active>,
-    /// How they are.
-    pub motion: PairDerivatives<'a>,
-}
-
 impl ParentRoom {
     /// What was filled last.
     pub fn table(&self) -> &ParentTable {
@@ -61,61 +47,54 @@ impl ParentRoom {
     }
 }
 
-/// Adds up what facet f of the host has with these pairs; `moves`: mortar nodes have rows and columns. Gives the pairs of parts
-/// whose weights were differentiated.
+/// Adds up what a facet of the host has with these pairs.
 #[inline(never)] // two callers, one of them seldom
-pub fn fill<const N: usize>(
-    (given, normals): (Given<N>, &[Vec3]),
-    (f, all, pairs): (usize, Pairs, &[UnionPair]),
-    (numbers, moves): (Option<&ParentNumbers<N>>, bool),
-    room: &mut ParentRoom,
-) -> Result<i64> {
+pub fn fill<const N: usize>(task: Task<N>, pairs: &[UnionPair], room: &mut ParentRoom) -> Result<i64> {
     features::PARTS.is_here();
-    let (one, two) = given.setup.surfaces();
+    let (one, two) = task.given.setup.surfaces();
+    let f = pairs[0].one;
     let of_pair = |(k, pair): (usize, &UnionPair)| (two.host_nodes(pair.two), if pair.is_active { bit(k) } else { 0 });
-    let mortar = pairs.iter().enumerate().filter(|_| moves).map(of_pair);
+    let mortar = pairs.iter().enumerate().filter(|_| task.moves).map(of_pair);
     let mortar = mortar.flat_map(|(nodes, pairs)| nodes.iter().map(move |&node| MortarNode { node, pairs }));
-    room.table.begin((one.host_nodes(f).len(), one.multipliers(f)), mortar, numbers.is_some())?;
-    let Some(numbers) = numbers else { return Ok(0) };
+    room.table.begin((one, f), mortar, task.numbers.is_some())?;
+    room.table.acts = pairs.iter().any(|pair| pair.is_active);
+    let Some(numbers) = task.numbers else { return Ok(0) };
     for pair in pairs {
         let mut places = [None; MAX_PARENT_NODES];
         two.host_nodes(pair.two).iter().zip(&mut places).for_each(|(&c, place)| *place = room.table.column(c));
-        let now = all.parent_now(pair);
+        let now = task.pairs.parent_now(pair);
         let integrated = match numbers.active {
             Some(active) if pair.is_active => Some(active.integrated_parent(pair.place)),
             _ => now,
         };
-        room.table.add_weights(&places, [now, integrated, all.parent_previous(pair)]);
+        room.table.add_weights(&places, [now, integrated, task.pairs.parent_previous(pair)]);
     }
-    differentiate((given, normals), (f, pairs), (numbers, moves), room)
+    differentiate(task, (f, pairs), numbers, room)
 }
 
-/// The blocks of facet f of the host with these pairs. Gives the pairs of parts whose weights were differentiated.
+/// The blocks of a facet of the host with these pairs. Gives the pairs of parts whose weights were differentiated.
 pub fn of_parent<const N: usize>(
-    (given, normals): (Given<N>, &[Vec3]),
-    (f, all, pairs): (usize, Pairs, &[UnionPair]),
-    numbers: Option<&ParentNumbers<N>>,
+    task: Task<N>,
+    pairs: &[UnionPair],
     room: &mut ParentRoom,
     emitter: &mut Emitter<N>,
 ) -> Result<i64> {
-    features::PARTS.is_here();
+    let (given, f) = (task.given, pairs[0].one);
     let one = &given.setup.nonmortar;
-    let (own, multipliers) = (one.host_nodes(f), one.multipliers(f));
-    let linearised = fill((given, normals), (f, all, pairs), (numbers, given.setup.effects.moves()), room)?;
-    let (one_len, is_active) = (one.len(), pairs.iter().any(|pair| pair.is_active));
-    let of_own = own.iter().map(|&a| (a, is_active));
-    let displacements = of_own.chain(room.table.mortar.iter().map(|known| (one_len + known.node, known.pairs != 0)));
-    let acting = own.iter().take(multipliers).enumerate().filter(|(_, a)| given.setup.nodes.acts(**a));
+    let linearised = fill(task, pairs, room)?;
+    let displacements = room.table.nodes().iter().map(|&(column, node)| (column, node, room.table.acts_on(column)));
+    let acting = one.host_nodes(f).iter().take(one.multipliers(f)).enumerate();
+    let acting = acting.filter(|(_, a)| given.setup.nodes.acts(**a));
     room.columns.begin(displacements, acting, &*emitter.taker)?;
-    emit((given, normals), (f, pairs, numbers), &room.table, &mut room.columns, emitter)?;
+    emit(task, (f, pairs), &room.table, &mut room.columns, emitter)?;
     Ok(linearised)
 }
 
 /// Adds the derivatives of a facet's weights, and what else its gaps depend on.
 fn differentiate<const N: usize>(
-    (given, normals): (Given<N>, &[Vec3]),
+    Task { given, normals, moves, .. }: Task<N>,
     (f, pairs): (usize, &[UnionPair]),
-    (numbers, moves): (&ParentNumbers<N>, bool),
+    numbers: &Numbers<N>,
     ParentRoom { table, motion, overlaps, .. }: &mut ParentRoom,
 ) -> Result<i64> {
     let (one, two) = given.setup.surfaces();
@@ -344,7 +323,7 @@ fn add_turned<const N: usize>(
     for part in parents.parts(f) {
         let (sub, parent) = (parents.sub(part), parents.facets[f].parent);
         let turned = given.history().facet_gaps.motion(&given.setup.nonmortar, part, x1)?;
-        let Some(GapDerivative::Turning(blocks)) = turned else { continue };
+        let Some(blocks) = turned else { continue };
         for (a, &row) in parents.space.nodes(parent, sub).iter().enumerate() {
             // A line's two nodes are those of its quadrilateral, each twice; a triangle has zeros for a fourth one.
             for (k, &node) in sub.nodes.iter().enumerate() {
@@ -371,7 +350,7 @@ struct Columns {
 impl Columns {
     fn begin<'a, const N: usize>(
         &mut self,
-        displacements: impl Iterator<Item = (usize, bool)>,
+        displacements: impl Iterator<Item = (usize, usize, bool)>,
         multipliers: impl Iterator<Item = (usize, &'a usize)>,
         taker: &dyn Blocks<N>,
     ) -> Result<()> {
@@ -380,7 +359,7 @@ impl Columns {
             |columns: &mut [(usize, Place)]| columns.sort_unstable_by_key(|(k, place)| (taker.order(*place), *k));
         self.multipliers.store_all(multipliers.map(|(k, &a)| (k, Place::Multiplier(a))))?;
         order(&mut self.multipliers);
-        for (k, (node, acts)) in displacements.enumerate() {
+        for (k, node, acts) in displacements {
             let column = (k, Place::Displacement(node));
             self.all.store(column)?;
             if acts {
@@ -395,8 +374,8 @@ impl Columns {
 
 /// Gives the blocks of a facet's table. Which there are depends on its pairs alone.
 fn emit<const N: usize>(
-    (given, normals): (Given<N>, &[Vec3]),
-    (f, pairs, numbers): (usize, &[UnionPair], Option<&ParentNumbers<N>>),
+    Task { given, normals, numbers, .. }: Task<N>,
+    (f, pairs): (usize, &[UnionPair]),
     table: &ParentTable,
     Columns { all, active, of_row, multipliers, row: values }: &mut Columns,
     emitter: &mut Emitter<N>,
@@ -422,35 +401,22 @@ fn emit<const N: usize>(
             };
             emitter.taker.row(place, of, table.force_row(row));
         }
-        if emitter.constraints.is_none() {
+        if emitter.constraints.is_none() && options.form == Form::Multiplier {
             let mut n = [0.0; MAX_PARENT_NODES];
             (0..table.multipliers).for_each(|a| n[a] = numbers.map_or(0.0, |_| table.now[a * table.columns() + row]));
             emitter.taker.multiplier_row(place, multipliers, &n, &nu);
         }
     }
-    for (a, &of) in own.iter().enumerate().take(table.multipliers) {
-        // Of node `b` through a share T of the gaps: (dc/dg_now) T Dg and (dc/dg_previous) T Dg at t_n's weights.
-        let mut row = |b: usize, share: Option<&Mat3>| -> Result<()> {
-            memory::refill(values, NodeBlock::default(), if numbers.is_some() { all.len() } else { 0 })?;
-            if let Some(numbers) = numbers {
-                let of = |d: &SMatrix<f64, N, 3>| {
-                    let mut square = Mat3::zeros();
-                    let d = share.map_or(*d, |share| d * share);
-                    (0..3 * N).for_each(|ij| square[(ij % N, ij / N)] = d[(ij % N, ij / N)]);
-                    square
-                };
-                let node = &numbers.nodes[b];
-                table.gap_row(a, [&of(&node.drow_dnow), &of(&node.drow_dprevious)], values);
+    for (k, &a) in own.iter().enumerate().take(table.multipliers) {
+        memory::refill(values, NodeBlock::default(), if numbers.is_some() { all.len() } else { 0 })?;
+        if let Some(numbers) = numbers {
+            let node = &numbers.nodes[a];
+            table.gap_row(k, [&square(&node.drow_dnow), &square(&node.drow_dprevious)], values)?;
+            if let Some(turns) = &numbers.turns {
+                turns.add_row(given, (f, k), values);
             }
-            emitter.node_rows(b, all, values);
-            Ok(())
-        };
-        row(of, None)?;
-        for &(b, w) in given.carriers_of(of) {
-            let is_carried = numbers.is_some_and(|n| n.carried.get(of).is_some_and(|c| *c));
-            let share = if is_carried { transfer(given, of, normals[of], normals[b]) * w } else { Mat3::zeros() };
-            row(b, Some(&share))?;
         }
+        emitter.node_rows(a, all, values);
     }
     Ok(())
 }

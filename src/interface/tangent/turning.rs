@@ -8,12 +8,13 @@
 //!   they take over run along nu_A.
 
 use super::augmented::NodeCouplings;
-use super::emission::{Emitter, Span};
+use super::emission::{Emitter, NodeBlock, Place, Span};
+use super::read::square;
 use super::union::{Pairs, UnionPair, Walk};
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::extent::Extent;
-use crate::interface::data::facet_nodes::FacetNodes;
+use crate::interface::data::host_facets::NormalDerivatives;
 use crate::interface::data::multiplier::direction;
 use crate::interface::data::options::Form;
 use crate::interface::pairing::given::Given;
@@ -24,7 +25,7 @@ use crate::interface::stages::sums::NodeSums;
 use crate::memory::{self, Store};
 use crate::mortar::MORTAR;
 use crate::normal::{corner_normal_derivatives, nodal_normal_derivative};
-use crate::shape::MAX_CORNERS;
+use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
 use nalgebra::SMatrix;
 use nalgebra::SVector;
 
@@ -92,10 +93,13 @@ impl<'a, const N: usize> Turns<'a, N> {
         Ok(Some(Turns { x1, nodes }))
     }
 
-    /// Dnu of the k-th node of a facet with respect to each corner of that facet which it depends on.
-    fn of_corner(&self, given: Given<N>, f: usize, k: usize) -> [(usize, Mat3); 3] {
+    /// Adds to the row of the k-th node of a facet of the host, `[column][j][i]`, its own nodes first.
+    pub fn add_row(&self, given: Given<N>, (f, k): (usize, usize), row: &mut [NodeBlock]) {
         let one = &given.setup.nonmortar;
-        corner_normal_derivatives(&one.facet(f, self.x1), k, &self.nodes[one.facets[f].nodes[k]].normal)
+        let d = one.normal_derivatives((f, k), self.x1, &square(&self.nodes[one.host_nodes(f)[k]].row));
+        d.as_slice()
+            .iter()
+            .for_each(|(column, d)| (0..9).for_each(|ij| row[*column][ij / 3][ij % 3] += d[(ij % 3, ij / 3)]));
     }
 
     /// Adds to the rows of a facet's nodes, `[k][j][n][A]`.
@@ -120,11 +124,13 @@ pub fn facet<const N: usize>(
     mut couplings: Option<&mut [NodeCouplings]>,
     emitter: &mut Emitter<N>,
 ) -> Result<()> {
-    let (given, normals) = (emitter.given, emitter.normals);
-    let nodes = &given.setup.nonmortar.facets[f];
-    let nothing = |k: usize| [0, 1, nodes.len - 1].map(|step| ((k + step) % nodes.len, Mat3::zeros()));
-    for (k, &a) in nodes.as_slice().iter().enumerate() {
-        let dnu = turns.map_or_else(|| nothing(k), |turns| turns.of_corner(given, f, k));
+    let (given, normals, one) = (emitter.given, emitter.normals, &emitter.given.setup.nonmortar);
+    let nodes = one.host_nodes(f);
+    for (k, &a) in nodes.iter().enumerate().take(one.multipliers(f)) {
+        let dnu = match turns {
+            Some(turns) => one.normal_derivatives((f, k), turns.x1, &turns.nodes[a].normal),
+            None => one.normal_columns((f, k)),
+        };
         let traction = turns.map_or(Mat3::zeros(), |turns| turns.nodes[a].traction);
         if let Some(couplings) = couplings.as_deref_mut() {
             add(&mut couplings[a], nodes, &dnu, &traction)?;
@@ -133,14 +139,14 @@ pub fn facet<const N: usize>(
         for &(b, w) in carriers {
             let gap = turns.map_or(Vec3::zeros(), |turns| turns.nodes[a].gap) * w;
             let along = normals[b] * gap.transpose();
-            let mut rows = [[[0.0; N]; 3]; MAX_CORNERS];
-            for (corner, dnu) in &dnu {
+            let mut rows = [[[0.0; N]; 3]; MAX_PARENT_NODES];
+            for (corner, dnu) in dnu.as_slice() {
                 let row = drow_dnow(b) * along * dnu;
                 for (j, n) in (0..3).flat_map(|j| (0..N).map(move |n| (j, n))) {
                     rows[*corner][j][n] += row[(n, j)];
                 }
             }
-            nodes.as_slice().iter().zip(&rows).for_each(|(&node, row)| emitter.node_row(b, node, row));
+            nodes.iter().zip(&rows).for_each(|(&node, row)| emitter.node_row(b, node, row));
             if let (Some(couplings), Form::Augmented) = (couplings.as_deref_mut(), given.setup.options.form) {
                 let scale = given.augmentation(b) / given.row_scale(b);
                 let traction = direction::<N>(normals[b]) * (drow_dnow(b) * along) * scale;
@@ -151,8 +157,8 @@ pub fn facet<const N: usize>(
     Ok(())
 }
 
-fn add(couplings: &mut NodeCouplings, nodes: &FacetNodes, dnu: &[(usize, Mat3); 3], traction: &Mat3) -> Result<()> {
-    dnu.iter().try_for_each(|(corner, dnu)| couplings.add_traction(nodes.nodes[*corner], traction * dnu))
+fn add(couplings: &mut NodeCouplings, nodes: &[usize], dnu: &NormalDerivatives, traction: &Mat3) -> Result<()> {
+    dnu.as_slice().iter().try_for_each(|(node, dnu)| couplings.add_traction(nodes[*node], traction * dnu))
 }
 
 /// What lone facets are found in.
@@ -173,7 +179,7 @@ pub fn lone_facets<const N: usize>(
     LoneRoom { paired, covered, of_facet, lone }: &mut LoneRoom,
 ) -> Result<()> {
     let one = &given.setup.nonmortar;
-    memory::refill(paired, false, one.facets.len())?;
+    memory::refill(paired, false, one.host_facets())?;
     memory::refill(covered, false, one.len())?;
     if extent == Extent::Part {
         (0..covered.len()).for_each(|a| covered[a] = given.setup.nodes.is_own(a));
@@ -181,19 +187,39 @@ pub fn lone_facets<const N: usize>(
     let mut walk = Walk::through(pairs, 0..usize::MAX);
     while let Some(f) = walk.next(of_facet)? {
         paired[f] = true;
-        one.facets[f].as_slice().iter().for_each(|&a| covered[a] = true);
+        one.host_nodes(f).iter().for_each(|&a| covered[a] = true);
     }
-    let is_lone = |f: &usize| !paired[*f] && one.facets[*f].as_slice().iter().any(|&a| covered[a]);
+    let is_lone = |f: &usize| !paired[*f] && one.host_nodes(*f).iter().any(|&a| covered[a]);
     lone.clear();
     (0..paired.len()).filter(is_lone).try_for_each(|f| lone.store(f))
 }
 
 /// The rows of such a facet.
 pub fn lone_rows<const N: usize>(f: usize, turns: Option<&Turns<N>>, emitter: &mut Emitter<N>) {
+    let one = &emitter.given.setup.nonmortar;
+    if one.parents.is_some() {
+        return lone_parent(f, turns, emitter);
+    }
     let mut rows = [[[[0.0; MAX_CORNERS]; N]; 3]; MORTAR];
     if let Some(turns) = turns {
         turns.add_rows(emitter.given, f, &mut rows);
     }
     emitter.begin(f);
     emitter.facet_rows(f, Span::Own, &rows);
+}
+
+fn lone_parent<const N: usize>(f: usize, turns: Option<&Turns<N>>, emitter: &mut Emitter<N>) {
+    let (given, one) = (emitter.given, &emitter.given.setup.nonmortar);
+    let nodes = one.host_nodes(f);
+    let mut columns = [(0, Place::Displacement(0)); MAX_PARENT_NODES];
+    columns.iter_mut().zip(nodes).enumerate().for_each(|(k, (to, &node))| *to = (k, Place::Displacement(node)));
+    let columns = &mut columns[..nodes.len()];
+    columns.sort_unstable_by_key(|(k, place)| (emitter.taker.order(*place), *k));
+    for (k, &a) in nodes.iter().enumerate().take(one.multipliers(f)) {
+        let mut row = [NodeBlock::default(); MAX_PARENT_NODES];
+        if let Some(turns) = turns {
+            turns.add_row(given, (f, k), &mut row);
+        }
+        emitter.node_rows(a, columns, &mut row);
+    }
 }

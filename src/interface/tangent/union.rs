@@ -6,14 +6,13 @@ use crate::interface::data::checksum::of_words;
 use crate::interface::data::history::Keeps;
 use crate::interface::data::options::Weights;
 use crate::interface::data::pairs::{PairRecord, ParentRecord};
-use crate::interface::data::setup::Setup;
 use crate::interface::data::surface::frames;
 use crate::interface::pairing::analytic;
 use crate::interface::pairing::candidates::{KeptTree, SKIN, candidates};
 use crate::interface::pairing::filter::Filter;
 use crate::interface::pairing::given::Given;
 use crate::memory::{self, Store, Stored};
-use crate::mortar::{MORTAR, PAIR_NODES, PairWeights, ParentWeights};
+use crate::mortar::{PairWeights, ParentWeights};
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 use crate::simd;
 use std::ops::Range;
@@ -41,18 +40,6 @@ impl UnionPair {
     pub fn places(pairs: &[UnionPair]) -> Range<usize> {
         let first = pairs[0].place;
         first..first + pairs.iter().filter(|pair| pair.is_active).count()
-    }
-
-    /// The nodes in the pair's slots, as indices over both surfaces (mortar after non-mortar).
-    pub fn slots<const N: usize>(&self, setup: &Setup<N>) -> [Option<usize>; PAIR_NODES] {
-        let (one, two) = (&setup.nonmortar.facets[self.one], &setup.mortar.facets[self.two]);
-        std::array::from_fn(|k| {
-            if k < MORTAR {
-                (k < one.len).then(|| one.nodes[k])
-            } else {
-                (k - MORTAR < two.len).then(|| setup.nonmortar.len() + two.nodes[k - MORTAR])
-            }
-        })
     }
 }
 

@@ -1,0 +1,34 @@
+//! What features read of a facet's table, whichever kernels have filled it.
+
+use super::emission::NodeBlock;
+use crate::error::Result;
+use crate::geometry::Mat3;
+use nalgebra::SMatrix;
+
+/// A facet's table, once it is filled.
+pub trait ReadTable {
+    /// Its columns, each with its node over both surfaces: mortar after non-mortar.
+    fn nodes(&self) -> &[(usize, usize)];
+
+    /// Whether forces depend on a column, and act on its node.
+    fn acts_on(&self, column: usize) -> bool;
+
+    /// n_AB, or - n_AC, of the k-th node's multiplier and a column, as they act now.
+    fn weight(&self, column: usize, k: usize) -> f64;
+
+    /// Of the k-th node, through how an answer depends on its gaps of now and of t_n: D of the answer, column by column, in place
+    /// of what is in `row`.
+    fn gap_row(&self, k: usize, through: [&Mat3; 2], row: &mut Vec<NodeBlock>) -> Result<()>;
+}
+
+/// A node's rows, of N components, in the first rows of a square.
+pub fn square<const N: usize>(d: &SMatrix<f64, N, 3>) -> Mat3 {
+    let mut square = Mat3::zeros();
+    (0..3 * N).for_each(|ij| square[(ij % N, ij / N)] = d[(ij % N, ij / N)]);
+    square
+}
+
+/// `[j][i]` as a matrix.
+pub fn matrix(block: &NodeBlock) -> Mat3 {
+    Mat3::from_fn(|i, j| block[j][i])
+}

@@ -1,0 +1,294 @@
+//! Features that meet, behind a handle of the C ABI: golden interfaces of every kind of facet, both forms, both normals, with offsets,
+//! removed components, one multiplier a node, frames that move, heat.
+
+use super::golden::*;
+use crate::support::*;
+use serde_json::Value;
+use std::ffi::CStr;
+use std::mem::{size_of, zeroed};
+use std::ptr::{null, null_mut};
+use stickslip::capi::*;
+
+/// Residual blocks and normals, relative to the largest entry of the block.
+const RESIDUAL: f64 = 1e-12;
+/// Tangent blocks.
+const TANGENT: f64 = 1e-10;
+/// The rule's error against a cylinder, whose integrand is no polynomial, over facets with straight and with curved edges.
+const CYLINDER: f64 = 5e-8;
+/// A block smaller than this part of the matrix is what is left of terms that cancel.
+const VANISHING: f64 = 1e-5;
+
+/// What the library does not take, by the names of the cases, and what it says.
+const REFUSED: [(&str, &str); 4] = [("F0", "equations of the frame"), ("O", "offsets"), ("H", "heat"), ("", "")];
+
+/// A case with these normals, through a handle.
+struct Case<'a> {
+    of: &'a Value,
+    fields: &'a Value,
+    handle: *mut stickslip_interface,
+    x: [Vec<f64>; 2],
+    lambda: Vec<f64>,
+    /// Components of a node, and of a multiplier.
+    d: usize,
+    m: usize,
+}
+
+impl Drop for Case<'_> {
+    fn drop(&mut self) {
+        ok!(stickslip_interface_destroy(&mut self.handle));
+    }
+}
+
+/// Facets as the ABI takes them: where each begins, and the nodes.
+fn arrays(v: &Value) -> (Vec<i64>, Vec<i64>) {
+    let facets = facets(v);
+    let ends = facets.iter().scan(0, |end, f| {
+        *end += f.len() as i64;
+        Some(*end)
+    });
+    (std::iter::once(0).chain(ends).collect(), facets.concat())
+}
+
+impl<'a> Case<'a> {
+    /// Created with the positions of t_n.
+    fn new(of: &'a Value, normals: &str, form: i32, one: bool) -> Result<Case<'a>, String> {
+        let x = ["x1", "x2"].map(|x| flat(&of[x]));
+        let previous = ["x1_prev", "x2_prev"].map(|x| flat(&of[x]));
+        let d = of["x1"][0].as_array().unwrap().len();
+        let (m, n1) = (if one { 1 } else { d }, x[0].len() / d);
+        let first = x[0].len() + x[1].len();
+        let mut equations: Vec<i64> = (0..(first + n1 * m) as i64).collect();
+        for a in (0..n1).filter(|&a| of["has_multiplier"][a] == false) {
+            equations[first + m * a..][..m].fill(-1);
+        }
+        for (a, i) in (0..n1).flat_map(|a| (0..m).map(move |i| (a, i))).filter(|&(a, i)| of["free"][a][i] == false) {
+            equations[first + m * a + i] = -1;
+        }
+        let [(offsets1, nodes1), (offsets2, nodes2)] = ["facets1", "facets2"].map(|f| arrays(&of[f]));
+        let (mut nonmortar, mut mortar) = (sized!(stickslip_surface), sized!(stickslip_surface));
+        (nonmortar.n_nodes, nonmortar.n_facets) = (n1 as i64, offsets1.len() as i64 - 1);
+        nonmortar.coordinates = previous[0].as_ptr();
+        (nonmortar.facet_offsets, nonmortar.facet_nodes) = (offsets1.as_ptr(), nodes1.as_ptr());
+        (nonmortar.equations, nonmortar.multiplier_equations) = (equations.as_ptr(), equations[first..].as_ptr());
+        (mortar.n_nodes, mortar.n_facets) = ((x[1].len() / d) as i64, offsets2.len() as i64 - 1);
+        (mortar.coordinates, mortar.equations) = (previous[1].as_ptr(), equations[x[0].len()..].as_ptr());
+        if mortar.n_facets > 0 {
+            (mortar.facet_offsets, mortar.facet_nodes) = (offsets2.as_ptr(), nodes2.as_ptr());
+        }
+        let mut options = sized!(stickslip_options);
+        ok!(stickslip_options_init(&mut options, size_of::<stickslip_options>() as u64));
+        options.augmentation = 1.0;
+        options.weak_coverage = STICKSLIP_WEAK_COVERAGE_NONE;
+        options.slip = slip_option(of);
+        options.row_scale = STICKSLIP_ROW_SCALE_NONE;
+        options.new_contact = STICKSLIP_NEW_CONTACT_KEEP;
+        options.form = form;
+        options.quadrature = STICKSLIP_QUADRATURE_DEGREE_10;
+        options.model = match of["model"].as_str().unwrap() {
+            "plane" => STICKSLIP_MODEL_PLANE,
+            "axisymmetric" => STICKSLIP_MODEL_AXISYMMETRIC,
+            _ => STICKSLIP_MODEL_SOLID,
+        };
+        options.thickness = of["thickness"].as_f64().unwrap_or(0.0);
+        options.multiplier_basis = [STICKSLIP_BASIS_STANDARD, STICKSLIP_BASIS_DUAL][usize::from(of["basis"] == "dual")];
+        options.multiplier_space =
+            [STICKSLIP_SPACE_CORNER, STICKSLIP_SPACE_SUB][usize::from(of["multiplier_space"] == "sub")];
+        options.normals = [STICKSLIP_NORMALS_COMMITTED, STICKSLIP_NORMALS_CURRENT][usize::from(normals == "current")];
+        if let Some(shape) = of["shape"].as_str() {
+            options.mortar_side = STICKSLIP_MORTAR_ANALYTIC;
+            options.shape = if shape == "plane" { STICKSLIP_SHAPE_PLANE } else { STICKSLIP_SHAPE_CYLINDER };
+            options.radius = of["radius"].as_f64().unwrap();
+        }
+        if one {
+            options.friction = STICKSLIP_FRICTION_NONE;
+        }
+        let mut case = Case { of, fields: &of[normals], handle: null_mut(), x, lambda: Vec::new(), d, m };
+        case.lambda = flat(&of[if one { "lambda_N" } else { "lambda" }]);
+        // SAFETY: pointers to vectors of the documented lengths, which outlive the call.
+        let said = |status: i32| match status {
+            STICKSLIP_OK => Ok(()),
+            _ => Err(unsafe { CStr::from_ptr(stickslip_last_error_message()) }.to_string_lossy().into_owned()),
+        };
+        said(unsafe { stickslip_interface_create(&nonmortar, &mortar, &options, &mut case.handle) })?;
+        if !one {
+            ok!(stickslip_interface_set_friction(case.handle, per_node(&of["mu"], n1).as_ptr()));
+        }
+        ok!(stickslip_interface_set_augmentation(case.handle, per_node(&of["r"], n1).as_ptr()));
+        if of["offsets1"].is_array() {
+            let [offsets1, offsets2] = ["offsets1", "offsets2"].map(|o| numbers(&of[o]));
+            said(unsafe { stickslip_interface_set_offsets(case.handle, offsets1.as_ptr(), offsets2.as_ptr()) })?;
+        }
+        Ok(case)
+    }
+
+    fn ends(&self) -> [usize; 4] {
+        let (a, b) = (self.x[0].len(), self.x[0].len() + self.x[1].len());
+        [0, a, b, b + self.lambda.len()]
+    }
+
+    fn residual(&self) -> Vec<f64> {
+        let [_, a, b, n] = self.ends();
+        let mut r = vec![f64::NAN; n];
+        let ([x1, x2], p) = ([self.x[0].as_ptr(), self.x[1].as_ptr()], r.as_mut_ptr());
+        ok!(stickslip_interface_residual(self.handle, x1, x2, self.lambda.as_ptr(), null(), p, p.add(a), p.add(b)));
+        r
+    }
+
+    /// Multipliers that are not there.
+    fn is_absent(&self, i: usize) -> bool {
+        let Some(k) = i.checked_sub(self.ends()[2]) else { return false };
+        let (a, component) = (k / self.m, k % self.m);
+        self.of["has_multiplier"][a] == false || self.m > 1 && self.of["free"][a][component] == false
+    }
+
+    /// Dense, of n columns: with motions of a frame in place of its points.
+    fn tangent(&self) -> (Vec<f64>, usize) {
+        let n = self.ends()[3];
+        let ([x1, x2], lambda) = ([self.x[0].as_ptr(), self.x[1].as_ptr()], self.lambda.as_ptr());
+        let (none, mut count) = (null_mut(), 0);
+        ok!(stickslip_interface_tangent_coo(
+            self.handle,
+            x1,
+            x2,
+            lambda,
+            null(),
+            0,
+            null_mut(),
+            null_mut(),
+            none,
+            &mut count
+        ));
+        let (mut rows, mut columns) = (vec![-1; count as usize], vec![-1; count as usize]);
+        let mut values = vec![f64::NAN; count as usize];
+        let (to_rows, to_columns) = (rows.as_mut_ptr(), columns.as_mut_ptr());
+        let (to, capacity) = (values.as_mut_ptr(), count);
+        ok!(stickslip_interface_tangent_coo(
+            self.handle,
+            x1,
+            x2,
+            lambda,
+            null(),
+            capacity,
+            to_rows,
+            to_columns,
+            to,
+            &mut count
+        ));
+        let mut k = vec![0.0; n * n];
+        for ((row, column), value) in rows.into_iter().zip(columns).zip(values) {
+            k[row as usize * n + column as usize] += value;
+        }
+        if self.of["shape"].is_null() {
+            return (k, n);
+        }
+        // dP_C = u + w x (P_C - P0); of lines one w, about z.
+        let ([_, a, b, _], d) = (self.ends(), self.d);
+        let motions = if d == 3 { 6 } else { 3 };
+        let width = n - (b - a) + motions;
+        let motion = |column: usize, motion: usize| -> f64 {
+            let (c, i) = ((column - a) / d, (column - a) % d);
+            let arm = |j: usize| self.x[1][d * c + j] - self.x[1][j];
+            match (motion.checked_sub(d), d) {
+                (None, _) => f64::from(i == motion),
+                (Some(_), 2) => [-arm(1), arm(0)][i],
+                (Some(w), _) if i == w => 0.0,
+                // e_w x arm
+                (Some(w), _) => {
+                    if i == (w + 1) % 3 {
+                        -arm((w + 2) % 3)
+                    } else {
+                        arm((w + 1) % 3)
+                    }
+                }
+            }
+        };
+        let mut moved = vec![0.0; n * width];
+        for i in 0..n {
+            let (from, to) = (&k[i * n..][..n], &mut moved[i * width..][..width]);
+            to[..a].copy_from_slice(&from[..a]);
+            (0..motions).for_each(|q| to[a + q] = (a..b).map(|j| from[j] * motion(j, q)).sum());
+            to[a + motions..].copy_from_slice(&from[b..]);
+        }
+        (moved, width)
+    }
+}
+
+/// Whether a case may be refused with these words.
+fn may_refuse(case: &Value, text: &str) -> bool {
+    REFUSED.iter().any(|(of, said)| !of.is_empty() && name(case).starts_with(of) && text.contains(said))
+}
+
+/// Blocks of rows and columns that end there, each relative to its largest entry.
+fn block_error((rows, columns): ([usize; 4], [usize; 4]), k: &[f64], expected: &[f64]) -> f64 {
+    let (n, least) = (columns[3], VANISHING * max_abs(expected.iter().copied()));
+    let mut worst = 0.0_f64;
+    for (r, c) in rows.windows(2).flat_map(|r| columns.windows(2).map(move |c| (r, c))) {
+        let of = |v: &[f64]| (r[0]..r[1]).flat_map(|i| v[i * n + c[0]..i * n + c[1]].to_vec()).collect::<Vec<_>>();
+        let (k, expected) = (of(k), of(expected));
+        worst = worst.max(relative(difference(&k, &expected), least.max(max_abs(expected.iter().copied()))));
+    }
+    worst
+}
+
+#[test]
+fn golden_interfaces_of_features_that_meet() {
+    let (mut worst, mut compared, mut refused) = ([[0.0_f64; 2]; 2], [0; 2], Vec::new());
+    let forms = [(STICKSLIP_FORM_MULTIPLIER, "_mult"), (STICKSLIP_FORM_AUGMENTED, "")];
+    for of in golden("golden_compose.json") {
+        let rule = if of["shape"] == "cylinder" { CYLINDER } else { 0.0 };
+        let one = |one: bool| if one { "one_" } else { "" };
+        for (normals, (form, suffix), is_one) in ["committed", "current"]
+            .into_iter()
+            .flat_map(|n| forms.into_iter().flat_map(move |f| [false, true].map(|one| (n, f, one))))
+        {
+            let key = |what: &str| format!("{}{what}{suffix}", one(is_one));
+            let expected = &of[normals][key("residual")];
+            if !expected.is_array() {
+                continue;
+            }
+            let what = format!("{} {normals} {}", name(&of), key("residual"));
+            let case = match Case::new(&of, normals, form, is_one) {
+                Ok(case) => case,
+                Err(text) => {
+                    println!("{what}: {text}");
+                    assert!(may_refuse(&of, &text), "{what}: {text}");
+                    refused.push(what);
+                    continue;
+                }
+            };
+            let (ends, mut r, mut expected) = (case.ends(), case.residual(), numbers(expected));
+            for i in (0..ends[3]).filter(|&i| case.is_absent(i)) {
+                (r[i], expected[i]) = (0.0, 0.0);
+            }
+            let error = residual_error(ends, &r, &expected);
+            let at = usize::from(rule > 0.0);
+            worst[at][0] = worst[at][0].max(error);
+            compared[0] += 1;
+            println!("{what} {error:.1e}");
+            assert!(error <= RESIDUAL.max(rule), "{what} off by {error:e}");
+            if !case.fields[key("tangent")].is_object() {
+                continue;
+            }
+            let (k, n) = case.tangent();
+            let mut expected = vec![0.0; ends[3] * n];
+            let coo = &case.fields[key("tangent")];
+            for ((i, j), v) in numbers(&coo["i"]).into_iter().zip(numbers(&coo["j"])).zip(numbers(&coo["v"])) {
+                if !case.is_absent(i as usize) && !case.is_absent(j as usize + ends[3] - n) {
+                    expected[i as usize * n + j as usize] = v;
+                }
+            }
+            let shift = ends[3] - n;
+            let columns = [0, ends[1], ends[2] - shift, n];
+            let error = block_error((ends, columns), &k, &expected);
+            println!("{what}, tangent {error:.1e}");
+            worst[at][1] = worst[at][1].max(error);
+            compared[1] += 1;
+            assert!(error <= TANGENT.max(rule), "{what}: tangent off by {error:e}");
+        }
+    }
+    let [[residual, tangent], [of_rule, tangent_of_rule]] = worst;
+    println!(
+        "residual {residual:.1e}, tangent {tangent:.1e}; cylinder {of_rule:.1e}, {tangent_of_rule:.1e}; {compared:?}"
+    );
+    println!("refused: {refused:?}");
+}
