@@ -245,7 +245,7 @@ impl<const N: usize> Contact<N> {
         columns.settle()?;
         let given = Given { setup: &self.setup, step: &self.step };
         let pairs = possible_pairs(given, &mut self.cache.work.tree, (x1, x2))?;
-        let (carriers, moves) = (&self.step.pairing.carriers, self.setup.effects.moves());
+        let (carriers, moves) = (&self.step.pairing.carriers, self.setup.mortar_moves());
         columns.entries(self.setup.surfaces(), carriers, (&pairs, moves), sink)
     }
 }

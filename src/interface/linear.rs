@@ -138,6 +138,7 @@ impl<'a, const N: usize> Here<'a, N> {
         let surface = mortar.analytic.map(|_| mortar.analytic_at(x2)).transpose()?;
         let motion = PairDerivatives { surface: surface.as_ref(), tangent: options.tangent, rule: options.rule };
         node_tangents(given, lambda, responses, normals, scale, work.nodes)?;
+        let pairs = self.cache.weighted(given.setup.surfaces(), given.history());
         let numbers = Numbers {
             x1,
             sums: &answers.sums,
@@ -145,7 +146,7 @@ impl<'a, const N: usize> Here<'a, N> {
             nodes: work.nodes,
             active: self.cache.active().filter(|_| differentiates),
             motion,
-            turns: Turns::at(given, (x1, lambda), (&answers.sums, responses), normals, scale, work.turns)?,
+            turns: Turns::at(given, (x1, lambda), (pairs, &answers.sums, responses), normals, scale, work.turns)?,
         };
         while work.rooms.len() < options.threads {
             work.rooms.store(ThreadRoom::default())?;

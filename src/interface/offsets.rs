@@ -28,14 +28,6 @@ impl<const N: usize> Contact<N> {
             let text = "offsets with STICKSLIP_DECISION_POINTS and weights of now: what they add to the gaps of points is not in the tangent; take STICKSLIP_WEIGHTS_COMMITTED or STICKSLIP_WEIGHTS_REFERENCE, or STICKSLIP_DECISION_NODES";
             return Err(Error::new(Kind::Unsupported, text));
         }
-        if offsets.iter().any(|h| !h.is_empty())
-            && N == 3
-            && options.follows_normals()
-            && options.effective_weak_coverage() > 0.0
-        {
-            let text = "offsets with STICKSLIP_NORMALS_CURRENT and weak_coverage > 0 (the default of dual multipliers): how the offset of a carried node turns is not in the tangent; give STICKSLIP_WEAK_COVERAGE_NONE, or take STICKSLIP_NORMALS_COMMITTED or STICKSLIP_FRICTION_NONE";
-            return Err(Error::new(Kind::Unsupported, text));
-        }
         if options.keeps_overlaps() && offsets.iter().any(|h| !h.is_empty()) {
             let text = "offsets with STICKSLIP_WEIGHTS_PERSISTENT: what they overlap by at the last commit would count as closed, and one that grows would press nothing; take other weights";
             return Err(Error::new(Kind::Unsupported, text));

@@ -8,6 +8,7 @@ use super::heat::sides::{Place, sides};
 use super::heat::tangent::{Equations, tangent};
 use super::pairing::given::Given;
 use super::tangent::by_equations::Sink;
+use super::tangent::turning::{NodeTurn, Turns};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::law::{Conductance, HeatFlow, HeatNode, NodeResponse};
@@ -55,18 +56,15 @@ impl<const N: usize> Contact<N> {
         (temperatures, with_motion): ([&[i64]; 2], bool),
         sink: &mut dyn Sink,
     ) -> Result<()> {
-        if with_motion && self.setup.options.follows_normals() {
-            let text = "derivatives of heat by displacements with STICKSLIP_NORMALS_CURRENT: how the normals turn is not in them; take STICKSLIP_NORMALS_COMMITTED, or STICKSLIP_HEAT_TEMPERATURES and solve for temperatures and displacements in turns";
-            return Err(Error::new(Kind::Unsupported, text));
-        }
         check_length("equations1", temperatures[0].len(), x[0].len())?;
         check_length("equations2", temperatures[1].len(), x[1].len())?;
         let mut rows = self.heat_rows(x, lambda, t, with_motion)?;
         let at = self.heat_place(x, t);
         let nodes = at.flows(&rows)?;
         let active = self.cache.active().filter(|_| self.setup.options.differentiates_weights());
-        let known = (active, &self.cache.answers().responses);
-        tangent(&at, &mut rows, &nodes, known, Equations { temperatures, with_motion }, sink)
+        let (known, mut room) = ((active, &self.cache.answers().responses), Vec::new());
+        let turns = if with_motion { self.turns(at.given, (x[0], lambda), &mut room)? } else { None };
+        tangent(&at, &mut rows, &nodes, known, turns.as_ref(), Equations { temperatures, with_motion }, sink)
     }
 
     /// The weights of now, and where slip counts of t_n. Leaves the law's answers.
@@ -78,10 +76,6 @@ impl<const N: usize> Contact<N> {
         with_motion: bool,
     ) -> Result<Vec<Row>> {
         let (one, two) = self.setup.surfaces();
-        if two.analytic.is_some() {
-            let text = "heat over an analytic mortar side, which has no nodes and no temperatures; mesh its surface";
-            return Err(Error::new(Kind::Unsupported, text));
-        }
         if self.setup.options.decides_at_points() {
             let text =
                 "heat with STICKSLIP_DECISION_POINTS, where pressures are of points; take STICKSLIP_DECISION_NODES";
@@ -109,6 +103,19 @@ impl<const N: usize> Contact<N> {
     fn heat_place<'a>(&'a self, x: [&'a [Vec3]; 2], t: Temperatures<'a>) -> Place<'a, N> {
         let responses: &[NodeResponse<N>] = &self.cache.answers().responses.nodes;
         let given = Given { setup: &self.setup, step: &self.step };
-        Place { given, x, temperatures: t.sides, responses, conductance: t.conductance }
+        let sums = &self.cache.answers().sums;
+        Place { given, x, temperatures: t.sides, responses, sums, conductance: t.conductance }
+    }
+
+    /// How the answers turn with normals of now.
+    fn turns<'a>(
+        &self,
+        given: Given<N>,
+        at: (&'a [Vec3], &[SVector<f64, N>]),
+        room: &'a mut Vec<NodeTurn<N>>,
+    ) -> Result<Option<Turns<'a, N>>> {
+        let answers = self.cache.answers();
+        let pairs = self.cache.weighted(self.setup.surfaces(), &self.step.history);
+        Turns::at(given, at, (pairs, &answers.sums, &answers.responses), &given.normals()?, |_| 1.0, room)
     }
 }

@@ -62,15 +62,15 @@ pub struct SurfacePair<'a> {
 pub type Turned = [[Mat3; MAX_PARENT_NODES]; MAX_CORNERS];
 
 /// A quadrature point.
-struct Point {
+pub(super) struct Point {
     /// Weight du dv.
-    weight: f64,
+    pub weight: f64,
     /// 1, u, v.
-    powers: [f64; 3],
+    pub powers: [f64; 3],
     /// N_B of the parent.
-    n: [f64; MAX_PARENT_NODES],
+    pub n: [f64; MAX_PARENT_NODES],
     /// N_A of the rows.
-    test: [f64; MAX_CORNERS],
+    pub test: [f64; MAX_CORNERS],
 }
 
 impl Point {
@@ -94,7 +94,7 @@ fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
 
 impl SurfacePair<'_> {
     /// Calls `visit` with the points of the rule.
-    fn for_points(&self, mut visit: impl FnMut(Point) -> Result<()>) -> Result<()> {
+    pub(super) fn for_points(&self, mut visit: impl FnMut(Point) -> Result<()>) -> Result<()> {
         let (parent, sub) = self.side;
         let rule = rule_for(self.rule, [parent, parent]);
         let mut at = |place| visit(Point::at(self.side, self.space, place));
@@ -106,7 +106,7 @@ impl SurfacePair<'_> {
     }
 
     /// x of these nodes.
-    fn position(&self, p: &Point, x: &[Vec3; MAX_PARENT_NODES]) -> Vec3 {
+    pub(super) fn position(&self, p: &Point, x: &[Vec3; MAX_PARENT_NODES]) -> Vec3 {
         (0..self.side.0.n).map(|b| x[b] * p.n[b]).sum()
     }
 

@@ -167,13 +167,13 @@ impl Elimination {
         let mut shares = Vec::new();
         match pairs {
             Weighted::Facets(pairs) => {
-                let moving = if given.setup.effects.moves() { pairs } else { &[] };
+                let moving = if given.setup.mortar_moves() { pairs } else { &[] };
                 e.shares(given.setup.surfaces(), moving, carriers, &mut shares)?;
             }
             Weighted::Parents(pairs) => {
                 e.shares_of_parents(
                     given.setup.surfaces(),
-                    (pairs, given.setup.effects.moves()),
+                    (pairs, given.setup.mortar_moves()),
                     carriers,
                     &mut shares,
                 )?;

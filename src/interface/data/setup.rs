@@ -7,7 +7,7 @@ use super::frame::check_frame;
 use super::node_data::NodeData;
 use super::numbering;
 use super::offsets;
-use super::options::{Form, MortarSide, MultiplierBasis, Options, Scheme, Tangent, Weights};
+use super::options::{MortarSide, MultiplierBasis, Options, Scheme, Tangent, Weights};
 use super::parents::Parents;
 use super::surface::{NO_EQUATION, Surface, frames};
 use crate::error::{Error, Kind, Result, Text};
@@ -75,7 +75,6 @@ impl<const N: usize> Setup<N> {
             frames(&mortar, &mortar.reference)?;
         }
         check_frame(&nonmortar, &mortar)?;
-        check_moving_frame([&nonmortar, &mortar], &options)?;
         put_parents([&mut nonmortar, &mut mortar], &multiplier_equations, &options)?;
         let nodes = NodeData::new(&multiplier_equations, mu)?;
         if options.decides_at_points() {
@@ -122,6 +121,11 @@ impl<const N: usize> Setup<N> {
         frame_moves(&self.mortar)
     }
 
+    /// Whether the mortar side has rows and columns: its nodes, or the points of its frame.
+    pub fn mortar_moves(&self) -> bool {
+        self.effects.moves() || self.frame_moves()
+    }
+
     /// Whether a node has a multiplier at all.
     pub fn has_multiplier(&self, a: usize) -> bool {
         self.multiplier_equations[a].iter().any(|&e| e != NO_EQUATION)
@@ -130,30 +134,6 @@ impl<const N: usize> Setup<N> {
 
 fn frame_moves(mortar: &Surface) -> bool {
     mortar.analytic.is_some() && mortar.equations.iter().flatten().any(|&e| e != NO_EQUATION)
-}
-
-/// Refuses what the equations of an analytic surface's frame do not go with.
-fn check_moving_frame([nonmortar, mortar]: [&Surface; 2], options: &Options) -> Result<()> {
-    if !frame_moves(mortar) {
-        return Ok(());
-    }
-    let with = if nonmortar.parents.is_some() {
-        "quadratic facets or lines"
-    } else if options.form == Form::Augmented {
-        "the augmented form"
-    } else if options.basis == MultiplierBasis::Dual {
-        "dual multipliers"
-    } else if options.effective_weak_coverage() > 0.0 {
-        "weak_coverage"
-    } else if options.friction.law().opens {
-        return Ok(());
-    } else {
-        "tied surfaces"
-    };
-    let text = text!(
-        "equations of the frame of an analytic surface (mortar.equations) with {with}: give the surface facets, or its frame none (-1)"
-    );
-    Err(Error::new(Kind::Unsupported, text))
 }
 
 /// Refuses surfaces on which points do not decide.

@@ -2,6 +2,7 @@
 //! contracted with tractions; heat has four things to contract them with, and takes them as they are: the forces of tractions that are
 //! 1 at one multiplier, as the tangent has them.
 
+use crate::dual::{DualBasis, corner_shares};
 use crate::element::NodeTangent;
 use crate::error::Result;
 use crate::geometry::Vec3;
@@ -14,10 +15,12 @@ use crate::interface::stages::respond::Responses;
 use crate::interface::tangent::blocks::{Room, of_facets};
 use crate::interface::tangent::derivatives::PairDerivatives;
 use crate::interface::tangent::emission::{Blocks, Directions, Emitter, MortarBlock, Place, Span, Weights};
+use crate::interface::tangent::frame;
 use crate::interface::tangent::parents::{self, ParentRoom};
 use crate::interface::tangent::task::{Numbers, Task};
 use crate::interface::tangent::union::{Pairs, UnionPair, Walk};
 use crate::memory::{self, Store};
+use crate::mortar::FrameMotion;
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 
 /// The weights of one facet, and how they change.
@@ -123,6 +126,9 @@ pub fn each_facet<const N: usize>(
     take: &mut dyn FnMut(&FacetWeights) -> Result<()>,
 ) -> Result<()> {
     let mut weights = FacetWeights::default();
+    if given.setup.mortar.analytic.is_some() {
+        return each_over_surface(given, active, &mut weights, take);
+    }
     if given.setup.has_parents() {
         return each_parent((given, normals), (active, responses), &mut weights, take);
     }
@@ -209,4 +215,77 @@ fn each_parent<const N: usize>(
         take(to)?;
     }
     Ok(())
+}
+
+/// Of facets against an analytic surface, whose weights are of the points of its frame.
+fn each_over_surface<const N: usize>(
+    given: Given<N>,
+    active: &Active,
+    to: &mut FacetWeights,
+    take: &mut dyn FnMut(&FacetWeights) -> Result<()>,
+) -> Result<()> {
+    let (one, two) = given.setup.surfaces();
+    let (surface, points) = (two.analytic_at(&active.x2)?, two.len());
+    let all = match given.setup.has_parents() {
+        true => Pairs::Parents([&active.parents, &[]]),
+        false => Pairs::Union([&active.pairs, &[]]),
+    };
+    let (mut walk, mut of_facet) = (Walk::through(all, 0..usize::MAX), Vec::new());
+    let mut motion: Vec<FrameMotion> = Vec::new(); // large
+    while let Some(f) = walk.next(&mut of_facet)? {
+        let (own, multipliers) = (one.host_nodes(f), one.multipliers(f));
+        motion.clear();
+        motion.store(FrameMotion::default())?;
+        let motion = &mut motion[0];
+        frame::add_motion(given, (f, active), (&surface, given.setup.options.rule), motion)?;
+        to.begin(own, multipliers, (0..points).map(|c| one.len() + two.facets[0].nodes[c]))?;
+        let n = own.len();
+        for a in 0..multipliers {
+            for c in 0..n {
+                (0..n).for_each(|b| *to.slope(a, b, c) = motion.own[a][b][c]);
+                (0..points).for_each(|k| *to.slope(a, n + k, c) = -motion.by_nodes[a][k][c]);
+            }
+            for (k, d) in (0..points).flat_map(|k| (0..points).map(move |d| (k, d))) {
+                *to.slope(a, n + k, n + d) = -motion.by_frame[a][k][d];
+            }
+        }
+        if let Some(basis) = frame::basis(given, active, &of_facet[0])? {
+            let weight = |a: usize, k: usize| frame::integrated(given, active, &of_facet[0], (a, k));
+            let shares = corner_shares(frame::parent(one, f));
+            make_dual(
+                &basis,
+                weight,
+                |a, b, c| if c < n { motion.mass((a, b, c), &shares) } else { Vec3::zeros() },
+                to,
+            );
+        }
+        take(to)?;
+    }
+    Ok(())
+}
+
+/// Makes of the derivatives of weights those of dual ones, n^d_A = m_A (m^-1 n)_A, with Dm_AB by each node. The facet is covered wholly.
+fn make_dual(
+    basis: &DualBasis,
+    weight: impl Fn(usize, usize) -> f64,
+    mass: impl Fn(usize, usize, usize) -> Vec3,
+    to: &mut FacetWeights,
+) {
+    let (coefficients, m, n) = (basis.coefficients(), to.multipliers, to.nodes.len());
+    let inverse = |a: usize, b: usize| coefficients[a][b] / basis.areas[a];
+    for (k, c) in (0..n).flat_map(|k| (0..n).map(move |c| (k, c))) {
+        let solved = |a: usize| (0..m).map(|b| inverse(a, b) * weight(b, k)).sum::<f64>();
+        let rest: [Vec3; MAX_CORNERS] = std::array::from_fn(|b| {
+            if b < m {
+                *to.slope(b, k, c) - (0..m).map(|e| mass(b, e, c) * solved(e)).sum::<Vec3>()
+            } else {
+                Vec3::zeros()
+            }
+        });
+        for a in 0..m {
+            let area: Vec3 = (0..m).map(|e| mass(a, e, c)).sum();
+            let of: Vec3 = (0..m).map(|b| rest[b] * (basis.areas[a] * inverse(a, b))).sum();
+            *to.slope(a, k, c) = of + area * solved(a);
+        }
+    }
 }

@@ -4,6 +4,7 @@ use super::rows::Row;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::interface::pairing::given::Given;
+use crate::interface::stages::sums::NodeSums;
 use crate::law::{Conductance, HeatFlow, HeatNode, NodeResponse, heat_flow};
 use crate::memory::{self, Stored};
 
@@ -18,6 +19,8 @@ pub struct Place<'a, const N: usize> {
     pub temperatures: [&'a [f64]; 2],
     /// The law's answers.
     pub responses: &'a [NodeResponse<N>],
+    /// What the nodes assemble.
+    pub sums: &'a [NodeSums],
     /// How heat passes.
     pub conductance: &'a Conductance,
 }

@@ -7,13 +7,15 @@ use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::active::Active;
 use crate::interface::data::surface::{NO_EQUATION, Surface, node_equations};
+use crate::interface::pairing::given::Given;
 use crate::interface::stages::carried::transfer;
 use crate::interface::stages::respond::Responses;
 use crate::interface::stages::sums::in_previous_gaps;
 use crate::interface::tangent::augmented::dtraction;
 use crate::interface::tangent::by_equations::Sink;
+use crate::interface::tangent::turning::Turns;
 use crate::law::{HeatFlow, HeatNode};
-use crate::memory::{self, Store};
+use crate::memory::{self, Store, Stored};
 use nalgebra::SMatrix;
 
 /// Where columns stand in the host's system.
@@ -71,6 +73,7 @@ pub fn tangent<const N: usize>(
     rows: &mut [Row],
     flows: &[(HeatNode, HeatFlow)],
     (active, responses): (Option<&Active>, &Responses<N>),
+    turns: Option<&Turns<N>>,
     equations: Equations,
     sink: &mut dyn Sink,
 ) -> Result<()> {
@@ -83,8 +86,10 @@ pub fn tangent<const N: usize>(
             None => turn(at, rows)?,
         }
         let carries = carries(at, carried)?;
+        let around = turns.map_or_else(|| Ok(Vec::new()), |_| facets_around(&at.given.setup.nonmortar))?;
+        let turning = turns.map(|turns| Turning { turns, around: &around });
         for a in (0..rows.len()).filter(|&a| flows[a].0.area > 0.0) {
-            nodes[a] = node(at, a, (rows, flows), &normals, (carried, &carries))?;
+            nodes[a] = node(at, a, (rows, flows), &normals, (carried, &carries), turning)?;
         }
     }
     let setup = at.given.setup;
@@ -169,6 +174,38 @@ struct Traction<const N: usize> {
     /// Dp = now Dg + previous Dg at t_n, of the gaps of these nodes.
     gaps: Vec<(usize, Mat3, Mat3)>,
     multipliers: Vec<(usize, SMatrix<f64, 3, N>)>,
+    /// dp / dnu of these nodes.
+    normals: Vec<(usize, Mat3)>,
+}
+
+/// How normals of now turn: with which facets each does.
+#[derive(Clone, Copy)]
+struct Turning<'a, const N: usize> {
+    turns: &'a Turns<'a, N>,
+    around: &'a [(usize, usize, usize)],
+}
+
+/// The facets of the host around each node, with its place there: sorted.
+#[inline(never)] // likewise
+fn facets_around(one: &Surface) -> Result<Vec<(usize, usize, usize)>> {
+    let of = |f: usize| one.host_nodes(f).iter().enumerate().map(move |(k, &a)| (a, f, k));
+    let mut all = (0..one.host_facets()).flat_map(of).stored()?;
+    memory::sort(&mut all)?;
+    Ok(all)
+}
+
+impl<const N: usize> Turning<'_, N> {
+    /// Adds what turns with nu_A.
+    fn add(&self, given: Given<N>, a: usize, by: [Vec3; 2], to: &mut Node) -> Result<()> {
+        let first = self.around.partition_point(|of| of.0 < a);
+        for &(_, f, k) in self.around[first..].iter().take_while(|of| of.0 == a) {
+            let nodes = given.setup.nonmortar.host_nodes(f);
+            for (l, dnu) in self.turns.of_normal(given, (f, k)).as_slice() {
+                to.add(nodes[*l], by.map(|by| dnu.transpose() * by))?;
+            }
+        }
+        Ok(())
+    }
 }
 
 impl<const N: usize> Traction<N> {
@@ -178,17 +215,25 @@ impl<const N: usize> Traction<N> {
         (at, a, share): (&Place<N>, usize, Mat3),
         normals: &[Vec3],
         carries: &[(usize, usize)],
+        turns: Option<&Turns<N>>,
     ) -> Result<()> {
         let (given, response) = (at.given, &at.responses[a]);
         let (now, previous) = dtraction(given, a, response, normals[a]);
         let (now, previous) = (share * now, share * previous);
         self.gaps.store((a, now, previous))?;
         self.multipliers.store((a, share * response.dp_dlambda))?;
+        if let Some(turns) = turns {
+            self.normals.store((a, share * turns.projected(a)))?;
+        }
         let first = carries.partition_point(|pair| pair.0 < a);
         for &(_, of) in carries[first..].iter().take_while(|pair| pair.0 == a) {
             let w = given.carriers_of(of).iter().filter(|carrier| carrier.0 == a).map(|carrier| carrier.1).sum::<f64>();
             let t = transfer(given, of, normals[of], normals[a]) * w;
             self.gaps.store((of, now * t, previous * t))?;
+            if let Some(turns) = turns {
+                let by_gap = if N > 1 && in_previous_gaps(given) { now + previous } else { now };
+                self.normals.store((of, by_gap * turns.taken_over(given, normals, (of, (a, w)))))?;
+            }
         }
         Ok(())
     }
@@ -198,15 +243,22 @@ impl<const N: usize> Traction<N> {
         a: usize,
         normals: &[Vec3],
         (carried, carries): (&[bool], &[(usize, usize)]),
+        turns: Option<&Turns<N>>,
     ) -> Result<Traction<N>> {
-        let mut traction = Traction { gaps: Vec::new(), multipliers: Vec::new() };
+        let mut traction = Traction { gaps: Vec::new(), multipliers: Vec::new(), normals: Vec::new() };
         if carried.get(a).is_some_and(|is| *is) {
             for &(b, w) in at.given.carriers_of(a) {
                 let share = transfer(at.given, a, normals[a], normals[b]).transpose() * w;
-                traction.add((at, b, share), normals, carries)?;
+                traction.add((at, b, share), normals, carries, turns)?;
+                if let (Some(_), 1) = (turns, N) {
+                    // T^T p_B = nu_A (nu_B . p_B).
+                    let p = at.responses[b].traction;
+                    traction.normals.store((a, Mat3::identity() * (normals[b].dot(&p) * w)))?;
+                    traction.normals.store((b, normals[a] * p.transpose() * w))?;
+                }
             }
         } else {
-            traction.add((at, a, Mat3::identity()), normals, carries)?;
+            traction.add((at, a, Mat3::identity()), normals, carries, turns)?;
         }
         Ok(traction)
     }
@@ -219,6 +271,7 @@ fn node<const N: usize>(
     (rows, flows): (&[Row], &[(HeatNode, HeatFlow)]),
     normals: &[Vec3],
     carrying: (&[bool], &[(usize, usize)]),
+    turning: Option<Turning<N>>,
 ) -> Result<Node> {
     let (given, response, slopes, nu) = (at.given, &at.responses[a], &flows[a].1.slopes, normals[a]);
     let sides = |of: &dyn Fn(&[f64; 5]) -> Vec3| [of(&slopes[0]), of(&slopes[1])];
@@ -241,7 +294,7 @@ fn node<const N: usize>(
         let gap = now.transpose() * nu;
         node.add(column.node, sides(&|s| column.jump * s[0] + gap * s[2] + column.area * s[3] + work * s[4]))?;
     }
-    let traction = Traction::of(at, a, normals, carrying)?;
+    let traction = Traction::of(at, a, normals, carrying, turning.map(|turning| turning.turns))?;
     // Dp acts through the pressure, and through the work of friction.
     let by = |s: &[f64; 5]| response.slip * s[4] - nu * s[1];
     for (from, by_now, by_previous) in &traction.gaps {
@@ -249,6 +302,17 @@ fn node<const N: usize>(
             let (now, before) = gaps(*from, column);
             let dp = by_now * (now + column.turned) + by_previous * before;
             node.add(column.node, sides(&|s| dp.transpose() * by(s)))?;
+        }
+    }
+    if let Some(turning) = turning {
+        // Of the gap nu . g, of the pressure - nu . p and of the work p . P s, by nu alone.
+        let sum = &at.sums[a];
+        let (g, s) = (sum.gap_now, free * (sum.gap_previous - sum.gap_now * coefficient));
+        let p = response.traction;
+        let work = if slips { -(p * nu.dot(&s) + s * nu.dot(&p)) } else { Vec3::zeros() };
+        turning.add(given, a, sides(&|slope| g * slope[2] - p * slope[1] + work * slope[4]), &mut node)?;
+        for (of, dp) in &traction.normals {
+            turning.add(given, *of, sides(&|slope| dp.transpose() * by(slope)), &mut node)?;
         }
     }
     for (b, dp) in &traction.multipliers {

@@ -22,7 +22,6 @@ use crate::geometry::Vec3;
 use crate::interface::data::multiplier::force_traction;
 use crate::interface::data::options::{Form, MultiplierBasis};
 use crate::interface::pairing::given::Given;
-use crate::interface::pairing::overlaps::FacetOverlaps;
 use crate::interface::stages::respond::Responses;
 use crate::memory::{self, Store};
 use crate::mortar::ForceDerivatives;
@@ -82,7 +81,6 @@ pub struct Room<const N: usize> {
     linear: LinearRoom,
     /// The row of a node's answer that is not its own multiplier's.
     row: Vec<NodeBlock>,
-    overlaps: FacetOverlaps,
     parent: ParentRoom,
     lone: turning::LoneRoom,
     pairs: Vec<UnionPair>,
@@ -244,28 +242,22 @@ pub fn of_nodes<const N: usize>(
     let answers = numbers.map(Numbers::answers);
     let options = &given.setup.options;
     if options.follows_normals() {
-        let drow_dnow = |b: usize| numbers.map_or_else(SMatrix::zeros, |n| n.nodes[b].drow_dnow);
+        let drow =
+            |b: usize| numbers.map_or([SMatrix::zeros(); 2], |n| [n.nodes[b].drow_dnow, n.nodes[b].drow_dprevious]);
         turning::lone_facets(given, (pairs, extent), &mut room.lone)?;
-        let beyond_rows = couplings.is_some() || (N == 1 && !given.step.pairing.carriers.is_empty());
+        let beyond_rows = couplings.is_some() || !given.step.pairing.carriers.is_empty();
         if beyond_rows {
             let mut walk = Walk::through(pairs, 0..usize::MAX);
             while let Some(f) = walk.next(&mut room.pairs)? {
-                turning::facet(f, (turns, drow_dnow), couplings.as_deref_mut(), emitter)?;
+                turning::facet(f, (turns, drow), couplings.as_deref_mut(), emitter)?;
             }
             for &f in &room.lone.lone {
-                turning::facet(f, (turns, drow_dnow), couplings.as_deref_mut(), emitter)?;
+                turning::facet(f, (turns, drow), couplings.as_deref_mut(), emitter)?;
             }
         }
         room.lone.lone.iter().for_each(|&f| turning::lone_rows(f, turns, emitter));
     }
-    let frame_numbers = numbers.map(|n| FrameNumbers {
-        nodes: n.nodes,
-        active: n.active,
-        surface: n.motion.surface,
-        rule: n.motion.rule,
-    });
-    let room = (&mut room.pairs, &mut room.overlaps);
-    frame::blocks((given, task.normals, pairs), frame_numbers, room, emitter)?;
+    frame::blocks((given, task.normals, pairs), numbers.map(FrameNumbers::from), &mut room.pairs, emitter)?;
     for a in 0..given.nodes() {
         let response = numbers.map(|n| &n.responses.nodes[a]);
         let is_carried = numbers.is_some_and(|n| n.responses.carried.get(a).is_some_and(|c| *c));

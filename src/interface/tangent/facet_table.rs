@@ -5,6 +5,7 @@
 
 use super::dual_facet::DualFacet;
 use super::emission::NodeBlock;
+use super::frame::FrameGaps;
 use super::read::ReadTable;
 use super::union::{Pairs, UnionPair};
 use crate::dual::{Columns, FacetColumns, FacetMotion, FacetShare, GROUP};
@@ -43,6 +44,8 @@ pub struct FacetTable<const N: usize> {
     along: Option<Along>,
     slopes: Vec<Slopes>,
     blocks: Option<GapBlocks>,
+    /// Dg_A of the points of a frame, which are the mortar nodes.
+    frame: Option<FrameGaps>,
     /// Whether the weights are held fixed.
     fixed: bool,
     /// D of the covered areas: with dual multipliers.
@@ -94,7 +97,7 @@ impl<const N: usize> FacetTable<N> {
         if self.forces.len() < columns {
             memory::refill(&mut self.forces, Columns::default(), columns)?;
         }
-        (self.along, self.blocks, self.raise, self.fixed) = (None, None, None, true);
+        (self.along, self.blocks, self.frame, self.raise, self.fixed) = (None, None, None, None, true);
         for pair in pairs {
             let slots = self.slots(two.map(|two| &two.facets[pair.two]));
             let lists = [(all.now(pair), &mut self.now), (all.previous(pair), &mut self.previous)];
@@ -152,6 +155,11 @@ impl<const N: usize> FacetTable<N> {
         if let Some(forces) = forces {
             self.forces[..self.own].copy_from_slice(&forces.one[..self.own]);
         }
+    }
+
+    /// Takes Dg_A by the frame of an analytic surface.
+    pub fn put_frame(&mut self, gaps: FrameGaps) {
+        self.frame = Some(gaps);
     }
 
     /// Adds what a kernel gives of a pair, or of all of them where `two` has no columns.
@@ -283,6 +291,10 @@ impl<const N: usize> ReadTable for FacetTable<N> {
     fn gap_row(&self, k: usize, through: [&Mat3; 2], row: &mut Vec<NodeBlock>) -> Result<()> {
         memory::refill(row, NodeBlock::default(), self.columns())?;
         node_row(self.gaps(), k, through, row);
+        for (d, to) in row[MAX_NODES..].iter_mut().enumerate() {
+            let block = self.frame.map_or_else(Mat3::zeros, |frame| through[0] * frame[k][d]);
+            (0..9).for_each(|ij| to[ij / 3][ij % 3] += block[(ij % 3, ij / 3)]);
+        }
         Ok(())
     }
 }

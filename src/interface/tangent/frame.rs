@@ -1,25 +1,34 @@
 //! Rows and columns of the points of an analytic surface's frame, where these have equations: those of a rigid body that is put
 //! together by `rigid` (docs/formulation.md 14.5). With t_A the traction of node A's forces, f_C = - sum_A n_AC t_A:
 //!
-//! - rows of P_C: - n_AC Dt_A, - Dn_AC t_A by the facet's nodes and by the frame; where t_A turns with a normal of now, that part
-//!   of Dt_A comes with what couples all pairs of a node (`augmented.rs`);
+//! - rows of P_C: - n_AC Dt_A, - Dn_AC t_A by the facet's nodes and by the frame; where t_A turns with a normal of now, or is projected,
+//!   that part of Dt_A comes with what couples all pairs of a node (`augmented.rs`);
 //! - rows of A, columns of P_D: (dc/dg_now) Dg_A / DP_D - (dc/dg_previous) n_AD(t_n).
+//!
+//! Dual multipliers (10.4) have f_C = - sum_B n_BC q_B with the integrated weights and q = m^-1 (m_A t_A), Dq = m^-1 (t_A Dm_A - (Dm) q),
+//! and gaps m_A (m^-1 Dg)_A: an analytic surface covers facets wholly, so that phi does not change.
 //!
 //! They belong to no facet alone: a frame has rows in common with all of them.
 
-use super::emission::{Directions, Emitter, Place, Weights};
+use super::blocks::is_coupled;
+use super::emission::{Directions, Emitter, NodeBlock, Place, Weights};
+use super::read::square;
+use super::task::Numbers;
 use super::union::{Pairs, UnionPair, Walk};
+use crate::dual::{DualBasis, corner_shares};
 use crate::element::NodeTangent;
 use crate::error::Result;
 use crate::geometry::{AnalyticSurface, FRAME, Mat3, Vec3};
 use crate::interface::data::active::Active;
+use crate::interface::data::options::{Form, MultiplierBasis};
+use crate::interface::data::surface::Surface;
 use crate::interface::pairing::given::Given;
-use crate::interface::pairing::overlaps::FacetOverlaps;
-use crate::mortar::{FrameMotion, frame_motion};
+use crate::interface::stages::facet::dual_basis;
+use crate::mortar::{FrameMotion, MultiplierSpace, SurfacePair, area_element};
 use crate::quadrature::Rule;
-use nalgebra::SMatrix;
+use crate::shape::{MAX_PARENT_NODES, Parent};
 
-/// What their numbers are made of.
+/// What its numbers are made of.
 #[derive(Clone, Copy)]
 pub struct FrameNumbers<'a, const N: usize> {
     /// What forces and rows must know of each node.
@@ -32,65 +41,193 @@ pub struct FrameNumbers<'a, const N: usize> {
     pub rule: &'static Rule,
 }
 
+impl<'a, const N: usize> From<&'a Numbers<'a, N>> for FrameNumbers<'a, N> {
+    fn from(n: &'a Numbers<'a, N>) -> Self {
+        FrameNumbers { nodes: n.nodes, active: n.active, surface: n.motion.surface, rule: n.motion.rule }
+    }
+}
+
+/// Dg_A / DP_D: `[A][D]`.
+pub type FrameGaps = [[Mat3; FRAME]; MAX_PARENT_NODES];
+
+/// Of a facet of the host; A and k are its nodes.
+#[derive(Debug)]
+pub struct FrameBlocks {
+    /// Df_C / Dx_k at fixed tractions.
+    by_nodes: [[Mat3; MAX_PARENT_NODES]; FRAME],
+    /// Df_C / DP_D.
+    by_frame: [[Mat3; FRAME]; FRAME],
+    /// Dg_A / DP_D.
+    pub gap: FrameGaps,
+}
+
+/// n_AC of a facet's only pair.
+fn mortar_weight(all: Pairs, pair: &UnionPair, a: usize, c: usize, is_now: bool) -> f64 {
+    let linear = if is_now { all.now(pair) } else { all.previous(pair) };
+    let of_parents = if is_now { all.parent_now(pair) } else { all.parent_previous(pair) };
+    of_parents.map_or_else(|| linear.map_or(0.0, |n| n.ac[a][c]), |n| n.ac[a][c])
+}
+
+impl FrameBlocks {
+    /// Of the facet with this pair.
+    pub fn of<const N: usize>(
+        (given, all): (Given<N>, Pairs),
+        pair: &UnionPair,
+        numbers: &FrameNumbers<N>,
+    ) -> Result<FrameBlocks> {
+        let one = &given.setup.nonmortar;
+        let (own, multipliers) = (one.host_nodes(pair.one), one.multipliers(pair.one));
+        let mut motion = FrameMotion::default();
+        let zeros = [Mat3::zeros(); FRAME];
+        let mut of = FrameBlocks {
+            by_nodes: [[Mat3::zeros(); MAX_PARENT_NODES]; FRAME],
+            by_frame: [zeros; FRAME],
+            gap: motion.gap,
+        };
+        let (Some(active), Some(surface)) = (numbers.active.filter(|_| pair.is_active), numbers.surface) else {
+            for (a, c) in (0..multipliers).flat_map(|a| (0..FRAME).map(move |c| (a, c))) {
+                of.gap[a][c] = Mat3::from_diagonal_element(-mortar_weight(all, pair, a, c, true));
+            }
+            return Ok(of);
+        };
+        add_motion(given, (pair.one, active), (surface, numbers.rule), &mut motion)?;
+        let mut t = [Vec3::zeros(); MAX_PARENT_NODES];
+        own.iter().zip(&mut t).take(multipliers).for_each(|(&a, t)| *t = numbers.nodes[a].traction);
+        if let Some(basis) = basis(given, active, pair)? {
+            let (inverse, p) = (basis.coefficients(), [0, 1, 2].map(|i| [0, 1, 2, 3].map(|a| t[a][i])));
+            let inverse = |a: usize, b: usize| inverse[a][b] / basis.areas[a];
+            let q = basis.tractions(&p);
+            let q = |a: usize| Vec3::new(q[0][a], q[1][a], q[2][a]);
+            let shares = corner_shares(parent(one, pair.one));
+            for k in 0..own.len() {
+                let of_row = |a: usize| -> Mat3 {
+                    (0..multipliers).map(|b| (t[a] - q(b)) * motion.mass((a, b, k), &shares).transpose()).sum()
+                };
+                for b in 0..multipliers {
+                    let change: Mat3 = (0..multipliers).map(|a| of_row(a) * inverse(b, a)).sum();
+                    for c in 0..FRAME {
+                        of.by_nodes[c][k] += change * integrated(given, active, pair, (b, own.len() + c));
+                    }
+                }
+            }
+            let gap = motion.gap;
+            for (a, d) in (0..multipliers).flat_map(|a| (0..FRAME).map(move |d| (a, d))) {
+                motion.gap[a][d] = (0..multipliers).map(|b| gap[b][d] * (basis.areas[a] * inverse(a, b))).sum();
+            }
+            (0..multipliers).for_each(|a| t[a] = q(a));
+        }
+        for (a, c) in (0..multipliers).flat_map(|a| (0..FRAME).map(move |c| (a, c))) {
+            (0..own.len()).for_each(|k| of.by_nodes[c][k] -= t[a] * motion.by_nodes[a][c][k].transpose());
+            (0..FRAME).for_each(|d| of.by_frame[c][d] -= t[a] * motion.by_frame[a][c][d].transpose());
+        }
+        of.gap = motion.gap;
+        Ok(of)
+    }
+}
+
+/// The kind of a facet of the host.
+pub fn parent(one: &Surface, f: usize) -> &'static Parent {
+    let linear = || Parent::of(one.facets[f].len).expect("a checked facet has 3 or 4 nodes");
+    one.parents.as_ref().map_or_else(linear, |parents| parents.facets[f].parent)
+}
+
+/// Adds the derivatives of all parts of a facet of the host.
+pub fn add_motion<const N: usize>(
+    given: Given<N>,
+    (f, active): (usize, &Active),
+    (surface, rule): (&AnalyticSurface, &'static Rule),
+    to: &mut FrameMotion,
+) -> Result<()> {
+    let one = &given.setup.nonmortar;
+    let Some(parents) = &one.parents else {
+        let frame = one.frame(f, &active.x1, &active.normals)?;
+        let parent = parent(one, f);
+        let (mut x, facet) = ([Vec3::zeros(); MAX_PARENT_NODES], one.facet(f, &active.x1));
+        x.iter_mut().zip(&facet.nodes).for_each(|(x, of)| *x = of - surface.origin);
+        let (side, space) = ((parent, &parent.subs[0]), MultiplierSpace::Corner);
+        return SurfacePair { side, space, area: &area_element(&frame), surface, rule }.frame_motion(&x, to);
+    };
+    for part in parents.parts(f) {
+        let frame = one.frame(part, &active.x1, &active.normals)?;
+        parents.over_surface(part, (&frame, &active.x1), (surface, rule), |part, x| part.frame_motion(x, to))?;
+    }
+    Ok(())
+}
+
+/// The dual basis of the facet of a pair; `None` with standard multipliers.
+pub fn basis<const N: usize>(given: Given<N>, active: &Active, pair: &UnionPair) -> Result<Option<DualBasis>> {
+    let (one, place) = (&given.setup.nonmortar, pair.place);
+    if given.setup.options.basis == MultiplierBasis::Standard {
+        return Ok(None);
+    }
+    if one.parents.is_some() {
+        return one.parent_basis(pair.one, &active.x1, std::iter::once(active.integrated_parent(place)));
+    }
+    let frame = one.frame(pair.one, &active.x1, &active.normals)?;
+    Ok(dual_basis(one, pair.one, (&frame, &[]), &active.integrated[place..place + 1])?.1)
+}
+
+/// n_AB, or - n_AC, of a multiplier and the k-th of a facet's own nodes and then of the frame's points, as it was integrated.
+pub fn integrated<const N: usize>(given: Given<N>, active: &Active, pair: &UnionPair, (a, k): (usize, usize)) -> f64 {
+    let own = given.setup.nonmortar.host_nodes(pair.one).len();
+    let of = |ab: &[f64], ac: &[f64]| if k < own { ab[k] } else { -ac[k - own] };
+    if given.setup.has_parents() {
+        let n = active.integrated_parent(pair.place);
+        return of(&n.ab[a], &n.ac[a]);
+    }
+    let n = active.integrated(pair.place);
+    of(&n.ab[a], &n.ac[a])
+}
+
+/// Whether anything but the frame's own rows and columns reads how gaps depend on the frame: products with projected tractions, rows of
+/// those who carry nodes.
+pub fn is_read<const N: usize>(given: Given<N>) -> bool {
+    given.setup.frame_moves() && (is_coupled(given) || !given.step.pairing.carriers.is_empty())
+}
+
 /// All of them, without numbers for the pattern alone; nothing where the frame has no equations.
 pub fn blocks<const N: usize>(
     (given, normals, all): (Given<N>, &[Vec3], Pairs),
     numbers: Option<FrameNumbers<N>>,
-    (pairs, overlaps): (&mut Vec<UnionPair>, &mut FacetOverlaps),
+    pairs: &mut Vec<UnionPair>,
     emitter: &mut Emitter<N>,
 ) -> Result<()> {
     if !given.setup.frame_moves() {
         return Ok(());
     }
-    let first = given.setup.nonmortar.len();
-    let point = |c: usize| Place::Displacement(first + given.setup.mortar.facets[0].nodes[c]);
+    let (one, two) = given.setup.surfaces();
+    let (first, points) = (one.len(), two.len());
+    let has_multipliers = emitter.constraints.is_none() && given.setup.options.form == Form::Multiplier;
+    let point = |c: usize| Place::Displacement(first + two.facets[0].nodes[c]);
     let mut walk = Walk::through(all, 0..usize::MAX);
     while let Some(f) = walk.next(pairs)? {
-        let nodes = given.setup.nonmortar.facets[f].as_slice();
-        let (now, previous) = (all.now(&pairs[0]), all.previous(&pairs[0]));
-        let mut motion = FrameMotion::default();
-        if let (Some(active), Some(numbers), true) =
-            (numbers.and_then(|n| n.active), numbers, !UnionPair::places(pairs).is_empty())
-        {
-            overlaps.of(given, active, UnionPair::places(pairs))?;
-            if let Some(surface) = numbers.surface {
-                motion = frame_motion(overlaps.frame(), surface, numbers.rule)?;
-            }
-        } else if let Some(weights) = now {
-            for (of_node, n) in motion.gap.iter_mut().zip(&weights.ac) {
-                of_node.iter_mut().zip(n).for_each(|(gap, n)| *gap = Mat3::from_diagonal_element(-n));
-            }
-        }
+        let (nodes, multipliers, pair) = (one.host_nodes(f), one.multipliers(f), &pairs[0]);
+        let of = numbers.as_ref().map(|numbers| FrameBlocks::of((given, all), pair, numbers)).transpose()?;
+        let acting = || nodes.iter().enumerate().take(multipliers).filter(|(_, a)| given.setup.nodes.acts(**a));
         let mut nu: Directions = Default::default();
         nodes.iter().enumerate().for_each(|(k, &a)| nu[k] = normals[a]);
-        let traction = |k: usize| numbers.map_or(Vec3::zeros(), |n| n.nodes[nodes[k]].traction);
-        for c in 0..FRAME {
+        for c in 0..points {
             let mut n: Weights = Default::default();
-            (0..nodes.len()).for_each(|k| n[k] = now.map_or(0.0, |weights| -weights.ac[k][c]));
-            for (k, &a) in nodes.iter().enumerate().filter(|(_, a)| given.setup.nodes.acts(**a)) {
+            (0..multipliers).for_each(|k| n[k] = -mortar_weight(all, pair, k, c, true));
+            for (k, &a) in acting().filter(|_| has_multipliers) {
                 emitter.taker.multiplier_row(point(c), &[(k, Place::Multiplier(a))], &n, &nu);
             }
-            let sum = |of: &dyn Fn(usize) -> Vec3| -> Mat3 {
-                (0..nodes.len()).map(|k| traction(k) * -of(k).transpose()).sum()
+            let mut force = |column: Place, block: Option<&Mat3>| {
+                emitter.taker.node(point(c), column, block.unwrap_or(&Mat3::zeros()).as_slice());
             };
             for (k, &b) in nodes.iter().enumerate() {
-                let block = sum(&|a| motion.by_nodes[a][c][k]);
-                emitter.taker.node(point(c), Place::Displacement(b), block.as_slice());
+                force(Place::Displacement(b), of.as_ref().map(|of| &of.by_nodes[c][k]));
             }
-            for d in 0..FRAME {
-                let block = sum(&|a| motion.by_frame[a][c][d]);
-                emitter.taker.node(point(c), point(d), block.as_slice());
-            }
+            (0..points).for_each(|d| force(point(d), of.as_ref().map(|of| &of.by_frame[c][d])));
         }
-        for (k, &a) in nodes.iter().enumerate().filter(|(_, a)| given.setup.nodes.acts(**a)) {
-            for d in 0..FRAME {
-                let mut row = SMatrix::<f64, N, 3>::zeros();
-                if let Some(numbers) = numbers {
-                    let before = previous.map_or(0.0, |weights| weights.ac[k][d]);
-                    row = numbers.nodes[a].drow_dnow * motion.gap[k][d] - numbers.nodes[a].drow_dprevious * before;
-                }
-                emitter.taker.node(Place::Multiplier(a), point(d), row.as_slice());
+        for ((k, &a), d) in acting().flat_map(|of_node| (0..points).map(move |d| (of_node, d))) {
+            let mut block = NodeBlock::default();
+            if let (Some(of), Some(numbers)) = (&of, &numbers) {
+                let (node, before) = (&numbers.nodes[a], mortar_weight(all, pair, k, d, false));
+                let row = square(&(node.drow_dnow * of.gap[k][d] - node.drow_dprevious * before));
+                block.iter_mut().enumerate().for_each(|(j, to)| (0..3).for_each(|i| to[i] = row[(i, j)]));
             }
+            emitter.node_rows(a, &[(0, point(d))], &mut [block]);
         }
     }
     Ok(())

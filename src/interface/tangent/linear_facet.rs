@@ -5,6 +5,7 @@
 use super::dual_facet::DualFacet;
 use super::emission::Emitter;
 use super::facet_table::FacetTable;
+use super::frame::{self, FrameBlocks};
 use super::task::{Numbers, Task};
 use super::union::UnionPair;
 use crate::dual::FacetMotion;
@@ -58,6 +59,9 @@ pub fn fill<const N: usize>(
     let linearised = places.len() as i64;
     if dual.is_some() && motion.is_none() {
         return Ok(linearised); // it has faded out
+    }
+    if frame::is_read(given) {
+        table.put_frame(FrameBlocks::of((given, task.pairs), &pairs[0], &numbers.into())?.gap);
     }
     let facet = Facet { f, pairs, active, overlaps, numbers, sides: [one, two], moves };
     let at = (dual.as_ref(), motion.as_ref());

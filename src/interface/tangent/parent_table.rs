@@ -2,6 +2,7 @@
 //! over its own nodes and those of its mortar facets (docs/formulation.md 12.5).
 
 use super::emission::NodeBlock;
+use super::frame::FrameGaps;
 use super::read::{ReadTable, matrix};
 use super::union::UnionPair;
 use crate::dual::{DualBasis, corner_shares};
@@ -263,6 +264,14 @@ impl ParentTable {
             for (a, &row) in rows.iter().enumerate() {
                 add(&mut self.gaps[row * columns + column], &d.gap[k], a);
             }
+        }
+    }
+
+    /// Takes Dg_A by the frame of an analytic surface, whose points are the mortar nodes.
+    pub fn put_frame(&mut self, gaps: &FrameGaps) {
+        let (own, columns) = (self.own, self.columns());
+        for (a, of) in gaps.iter().enumerate().take(self.multipliers) {
+            (own..columns).zip(of).for_each(|(column, of)| set(&mut self.gaps[a * columns + column], of));
         }
     }
 

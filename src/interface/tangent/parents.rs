@@ -4,6 +4,7 @@
 use super::derivatives::PairDerivatives;
 use super::emission::{Blocks, Emitter, NodeBlock, Place};
 use super::fields::Fields;
+use super::frame::{self, FrameBlocks};
 use super::lines::add_lines;
 use super::parent_table::{DualParent, MortarNode, ParentTable, bit};
 use super::read::{ReadTable, square};
@@ -54,7 +55,8 @@ pub fn fill<const N: usize>(task: Task<N>, pairs: &[UnionPair], room: &mut Paren
     let (one, two) = task.given.setup.surfaces();
     let f = pairs[0].one;
     let of_pair = |(k, pair): (usize, &UnionPair)| (two.host_nodes(pair.two), if pair.is_active { bit(k) } else { 0 });
-    let mortar = pairs.iter().enumerate().filter(|_| task.moves).map(of_pair);
+    let has_columns = task.moves || task.given.setup.frame_moves();
+    let mortar = pairs.iter().enumerate().filter(|_| has_columns).map(of_pair);
     let mortar = mortar.flat_map(|(nodes, pairs)| nodes.iter().map(move |&node| MortarNode { node, pairs }));
     room.table.begin((one, f), mortar, task.numbers.is_some())?;
     room.table.acts = pairs.iter().any(|pair| pair.is_active);
@@ -69,7 +71,11 @@ pub fn fill<const N: usize>(task: Task<N>, pairs: &[UnionPair], room: &mut Paren
         };
         room.table.add_weights(&places, [now, integrated, task.pairs.parent_previous(pair)]);
     }
-    differentiate(task, (f, pairs), numbers, room)
+    let linearised = differentiate(task, (f, pairs), numbers, room)?;
+    if numbers.active.is_some() && frame::is_read(task.given) {
+        room.table.put_frame(&FrameBlocks::of((task.given, task.pairs), &pairs[0], &numbers.into())?.gap);
+    }
+    Ok(linearised)
 }
 
 /// The blocks of a facet of the host with these pairs. Gives the pairs of parts whose weights were differentiated.
@@ -82,7 +88,9 @@ pub fn of_parent<const N: usize>(
     let (given, f) = (task.given, pairs[0].one);
     let one = &given.setup.nonmortar;
     let linearised = fill(task, pairs, room)?;
-    let displacements = room.table.nodes().iter().map(|&(column, node)| (column, node, room.table.acts_on(column)));
+    // Those of a frame have rows in common with all facets (`frame.rs`).
+    let leave = room.table.nodes().iter().filter(|(column, _)| task.moves || *column < room.table.own);
+    let displacements = leave.map(|&(column, node)| (column, node, room.table.acts_on(column)));
     let acting = one.host_nodes(f).iter().take(one.multipliers(f)).enumerate();
     let acting = acting.filter(|(_, a)| given.setup.nodes.acts(**a));
     room.columns.begin(displacements, acting, &*emitter.taker)?;

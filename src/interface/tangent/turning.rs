@@ -4,8 +4,8 @@
 //! - rows of A: (dc/dnu) Dnu_A;
 //! - forces of A's traction t, which is p or, with one multiplier in the multiplier form, lambda_N nu: (dt/dnu) Dnu_A, at every
 //!   node that t acts on;
-//! - where A is carried and has one multiplier: w (nu_B . dc_B/dg) g_A . Dnu_A in the rows of its carriers, for the gaps that
-//!   they take over run along nu_A.
+//! - where A is carried, in the rows of its carriers, what of the gap that they take over turns with nu_A: with one multiplier
+//!   w (nu_B . dc_B/dg) g_A . Dnu_A, for it runs along nu_A; else its offset, w (dc_B/dg) T_AB o_A Dnu_A.
 
 use super::augmented::NodeCouplings;
 use super::emission::{Emitter, NodeBlock, Place, Span};
@@ -16,12 +16,15 @@ use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::extent::Extent;
 use crate::interface::data::host_facets::NormalDerivatives;
 use crate::interface::data::multiplier::direction;
+use crate::interface::data::offsets;
 use crate::interface::data::options::Form;
+use crate::interface::data::pairs::Weighted;
 use crate::interface::pairing::given::Given;
-use crate::interface::stages::carried::carriers_sums;
+use crate::interface::pairing::weak::Carrier;
+use crate::interface::stages::carried::{carriers_sums, transfer};
 use crate::interface::stages::node::node;
 use crate::interface::stages::respond::Responses;
-use crate::interface::stages::sums::NodeSums;
+use crate::interface::stages::sums::{NodeSums, each_offset, in_previous_gaps};
 use crate::memory::{self, Store};
 use crate::mortar::MORTAR;
 use crate::normal::{corner_normal_derivatives, nodal_normal_derivative};
@@ -38,8 +41,12 @@ pub struct NodeTurn<const N: usize> {
     row: SMatrix<f64, N, 3>,
     /// d traction of the forces / dnu.
     traction: Mat3,
+    /// dp / dnu; of a carried node, whose carriers have it, none.
+    projected: Mat3,
     /// g, as a carried node hands it on.
     gap: Vec3,
+    /// o of its offsets likewise.
+    offset: f64,
 }
 
 /// Derivatives with respect to the normals of the nodes, at some positions.
@@ -53,7 +60,7 @@ impl<'a, const N: usize> Turns<'a, N> {
     pub fn at(
         given: Given<N>,
         (x1, lambda): (&'a [Vec3], &[SVector<f64, N>]),
-        (sums, responses): (&[NodeSums], &Responses<N>),
+        (pairs, sums, responses): (Weighted, &[NodeSums], &Responses<N>),
         normals: &[Vec3],
         scale: impl Fn(usize) -> f64,
         nodes: &'a mut Vec<NodeTurn<N>>,
@@ -62,6 +69,10 @@ impl<'a, const N: usize> Turns<'a, N> {
         let (setup, carried) = (given.setup, &responses.carried);
         let shared = if carried.contains(&true) { carriers_sums(given, sums, carried, normals)? } else { Vec::new() };
         let augmented = setup.options.form == Form::Augmented;
+        let mut offsets = memory::filled(0.0, if shared.is_empty() { 0 } else { lambda.len() })?;
+        if !shared.is_empty() && offsets::are_there(setup.surfaces()) {
+            each_offset(setup.surfaces(), pairs, |a, offset| offsets[a] += offset);
+        }
         let turn = |a: usize| -> Result<NodeTurn<N>> {
             let sum = shared.binary_search_by_key(&a, |(b, _)| *b).map_or(&sums[a], |at| &shared[at].1);
             let is_carried = carried.get(a).is_some_and(|c| *c);
@@ -85,12 +96,34 @@ impl<'a, const N: usize> Turns<'a, N> {
                 normal,
                 row: turn.drow_dnormal * normal * if setup.nodes.is_own(a) { scale(a) } else { 0.0 },
                 traction,
+                projected: turn.dp_dnormal,
                 gap: if is_carried { sums[a].gap_now } else { Vec3::zeros() },
+                offset: if is_carried { offsets[a] } else { 0.0 },
             })
         };
         nodes.clear();
         (0..lambda.len()).try_for_each(|a| nodes.store(turn(a)?))?;
         Ok(Some(Turns { x1, nodes }))
+    }
+
+    /// dp_A / dnu_A, as the law has it.
+    pub fn projected(&self, a: usize) -> &Mat3 {
+        &self.nodes[a].projected
+    }
+
+    /// d (gap that B takes over of A, which it carries with weight w) / dnu_A.
+    pub fn taken_over(&self, given: Given<N>, normals: &[Vec3], (a, (b, w)): (usize, Carrier)) -> Mat3 {
+        let node = &self.nodes[a];
+        match N {
+            1 => normals[b] * node.gap.transpose() * w,
+            _ => transfer(given, a, normals[a], normals[b]) * (w * node.offset),
+        }
+    }
+
+    /// Dnu of the k-th node of a facet of the host, by those of its nodes that it depends on.
+    pub fn of_normal(&self, given: Given<N>, (f, k): (usize, usize)) -> NormalDerivatives {
+        let one = &given.setup.nonmortar;
+        one.normal_derivatives((f, k), self.x1, &self.nodes[one.host_nodes(f)[k]].normal)
     }
 
     /// Adds to the row of the k-th node of a facet of the host, `[column][j][i]`, its own nodes first.
@@ -116,11 +149,11 @@ impl<'a, const N: usize> Turns<'a, N> {
     }
 }
 
-/// What a facet's corners add to tractions, and to the rows of those who carry its nodes. `drow_dnow`: of every node, times
-/// the row scale; `turns`: `None` for the pattern alone.
+/// What a facet's corners add to tractions, and to the rows of those who carry its nodes. `drow`: of every node by its gaps of now
+/// and of t_n, times the row scale; `turns`: `None` for the pattern alone.
 pub fn facet<const N: usize>(
     f: usize,
-    (turns, drow_dnow): (Option<&Turns<N>>, impl Fn(usize) -> SMatrix<f64, N, 3>),
+    (turns, drow): (Option<&Turns<N>>, impl Fn(usize) -> [SMatrix<f64, N, 3>; 2]),
     mut couplings: Option<&mut [NodeCouplings]>,
     emitter: &mut Emitter<N>,
 ) -> Result<()> {
@@ -128,20 +161,21 @@ pub fn facet<const N: usize>(
     let nodes = one.host_nodes(f);
     for (k, &a) in nodes.iter().enumerate().take(one.multipliers(f)) {
         let dnu = match turns {
-            Some(turns) => one.normal_derivatives((f, k), turns.x1, &turns.nodes[a].normal),
+            Some(turns) => turns.of_normal(given, (f, k)),
             None => one.normal_columns((f, k)),
         };
         let traction = turns.map_or(Mat3::zeros(), |turns| turns.nodes[a].traction);
         if let Some(couplings) = couplings.as_deref_mut() {
             add(&mut couplings[a], nodes, &dnu, &traction)?;
         }
-        let carriers = if N == 1 { given.carriers_of(a) } else { &[] };
+        let carriers = if N == 1 || offsets::are_there(given.setup.surfaces()) { given.carriers_of(a) } else { &[] };
         for &(b, w) in carriers {
-            let gap = turns.map_or(Vec3::zeros(), |turns| turns.nodes[a].gap) * w;
-            let along = normals[b] * gap.transpose();
+            let along = turns.map_or(Mat3::zeros(), |turns| turns.taken_over(given, normals, (a, (b, w))));
+            let [now, previous] = drow(b);
+            let by_gap = if N > 1 && in_previous_gaps(given) { now + previous } else { now };
             let mut rows = [[[0.0; N]; 3]; MAX_PARENT_NODES];
             for (corner, dnu) in dnu.as_slice() {
-                let row = drow_dnow(b) * along * dnu;
+                let row = by_gap * along * dnu;
                 for (j, n) in (0..3).flat_map(|j| (0..N).map(move |n| (j, n))) {
                     rows[*corner][j][n] += row[(n, j)];
                 }
@@ -149,7 +183,7 @@ pub fn facet<const N: usize>(
             nodes.iter().zip(&rows).for_each(|(&node, row)| emitter.node_row(b, node, row));
             if let (Some(couplings), Form::Augmented) = (couplings.as_deref_mut(), given.setup.options.form) {
                 let scale = given.augmentation(b) / given.row_scale(b);
-                let traction = direction::<N>(normals[b]) * (drow_dnow(b) * along) * scale;
+                let traction = direction::<N>(normals[b]) * (by_gap * along) * scale;
                 add(&mut couplings[b], nodes, &dnu, &traction)?;
             }
         }
