@@ -25,10 +25,6 @@ impl Contact<3> {
             return Err(Error::new(Kind::Unsupported, text));
         }
         if let Some(Own::Orthotropic(_)) = own {
-            if options.follows_normals() {
-                let text = "orthotropic friction with STICKSLIP_NORMALS_CURRENT: how its axes turn with a normal of now is not in the tangent; take STICKSLIP_NORMALS_COMMITTED";
-                return Err(Error::new(Kind::Unsupported, text));
-            }
             if self.setup.nonmortar.lines().is_some() {
                 let text = "orthotropic friction with lines: a plane or axisymmetric model has one direction to slip in; give it its mu";
                 return Err(Error::new(Kind::Unsupported, text));

@@ -39,6 +39,15 @@ impl Ellipse {
         let size = along.norm();
         (size >= LEAST_IN_SURFACE).then(|| [along / size, normal.cross(&(along / size))])
     }
+
+    /// How these axes turn as the normal changes by `change`.
+    pub fn turned_axes(&self, normal: Vec3, [one, _]: [Vec3; 2], change: Vec3) -> [Vec3; 2] {
+        let unit = self.direction.normalize();
+        let size = (unit - normal * normal.dot(&unit)).norm();
+        let along = -(change * normal.dot(&unit) + normal * change.dot(&unit)) / size;
+        let d_one = along - one * one.dot(&along);
+        [d_one, change.cross(&one) + normal.cross(&d_one)]
+    }
 }
 
 /// What a law of one's own adds to a node.
