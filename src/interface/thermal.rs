@@ -1,5 +1,6 @@
 //! Heat through the handle (docs/formulation.md 17).
 
+use super::compose::Feature;
 use super::contact::Contact;
 use super::data::extent::Extent;
 use super::data::node_data::check_length;
@@ -37,6 +38,7 @@ impl<const N: usize> Contact<N> {
     /// # Errors
     /// Those of a residual; [`Kind::Unsupported`]: the mortar side is an analytic surface, which has no temperatures; points decide what is closed.
     pub fn heat(&mut self, x: [&[Vec3]; 2], lambda: &[SVector<f64, N>], t: Temperatures) -> Result<Heat> {
+        self.setup.refuse(&[(Feature::Heat, true)])?;
         let rows = self.heat_rows(x, lambda, t, false)?;
         let at = self.heat_place(x, t);
         let nodes = at.flows(&rows)?;
@@ -55,10 +57,7 @@ impl<const N: usize> Contact<N> {
         (temperatures, with_motion): ([&[i64]; 2], bool),
         sink: &mut dyn Sink,
     ) -> Result<()> {
-        if with_motion && self.setup.options.follows_normals() {
-            let text = "derivatives of heat by displacements with STICKSLIP_NORMALS_CURRENT: how the normals turn is not in them; take STICKSLIP_NORMALS_COMMITTED, or STICKSLIP_HEAT_TEMPERATURES and solve for temperatures and displacements in turns";
-            return Err(Error::new(Kind::Unsupported, text));
-        }
+        self.setup.refuse(&[(Feature::Heat, true), (Feature::HeatMotion, with_motion)])?;
         check_length("equations1", temperatures[0].len(), x[0].len())?;
         check_length("equations2", temperatures[1].len(), x[1].len())?;
         let mut rows = self.heat_rows(x, lambda, t, with_motion)?;
@@ -78,15 +77,6 @@ impl<const N: usize> Contact<N> {
         with_motion: bool,
     ) -> Result<Vec<Row>> {
         let (one, two) = self.setup.surfaces();
-        if two.analytic.is_some() {
-            let text = "heat over an analytic mortar side, which has no nodes and no temperatures; mesh its surface";
-            return Err(Error::new(Kind::Unsupported, text));
-        }
-        if self.setup.options.decides_at_points() {
-            let text =
-                "heat with STICKSLIP_DECISION_POINTS, where pressures are of points; take STICKSLIP_DECISION_NODES";
-            return Err(Error::new(Kind::Unsupported, text));
-        }
         for (name, values, needed) in
             [("temperatures1", t.sides[0], one.len()), ("temperatures2", t.sides[1], two.len())]
         {

@@ -1,0 +1,146 @@
+//! Features of an interface: what a host can choose, give or ask for, as far as one may not go with another. Whether an interface
+//! has one is a predicate on its data: `Options::features`, `Setup::features`.
+
+/// What features are of one another's kind: of most groups an interface has one at a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Group {
+    /// The facets of both sides.
+    Facets,
+    /// The basis of the multipliers, where they stand, how many there are.
+    Multipliers,
+    /// The form of the residual.
+    Form,
+    /// Which normals there are.
+    Normals,
+    /// Which weights there are.
+    Weights,
+    /// What measures slip.
+    Slip,
+    /// The law.
+    Law,
+    /// Where it is decided.
+    Decision,
+    /// How overlaps are integrated.
+    Integration,
+    /// What of the tangent is left out.
+    Tangent,
+    /// Nodes that are carried.
+    Coverage,
+    /// What the mortar side is.
+    Mortar,
+    /// Offsets of nodes.
+    Offsets,
+    /// Parts and shares of an interface.
+    Parts,
+    /// What is asked of an interface.
+    Call,
+}
+
+/// A feature: what it is called in refusals, and how a host does without.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct About {
+    /// The feature.
+    pub feature: Feature,
+    /// Which kind it is of.
+    pub group: Group,
+    /// In refusals and in the matrix.
+    pub name: &'static str,
+    /// The way out; empty: a host that has it cannot do without.
+    pub without: &'static str,
+}
+
+/// The features, one a row: name in the code, group, name in refusals, how to do without.
+macro_rules! features {
+    ($($feature:ident $group:ident $name:literal $without:literal;)*) => {
+        /// A feature.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        #[repr(u8)]
+        pub enum Feature {
+            $(#[doc = $name] $feature,)*
+        }
+
+        /// All of them, in the order of their numbers.
+        pub const FEATURES: &[About] = &[
+            $(About { feature: Feature::$feature, group: Group::$group, name: $name, without: $without },)*
+        ];
+    };
+}
+
+features! {
+    Lines Facets "lines" "";
+    Quadratic Facets "quadratic facets" "";
+    MidNodes Facets "facets with mid nodes" "mesh with linear facets";
+    StandardBasis Multipliers "standard multipliers" "take STICKSLIP_BASIS_DUAL";
+    DualBasis Multipliers "dual multipliers" "take STICKSLIP_BASIS_STANDARD";
+    AllNodes Multipliers "multipliers at all nodes of quadratic facets or lines" "take STICKSLIP_SPACE_CORNER";
+    ThreeMultipliers Multipliers "three multipliers a node" "take STICKSLIP_FRICTION_NONE";
+    Augmented Form "the augmented form" "take STICKSLIP_FORM_MULTIPLIER";
+    NormalsNow Normals "normals of now" "take STICKSLIP_NORMALS_COMMITTED";
+    HostNormals Normals "normals of the host" "leave them to the library";
+    WeightsNow Weights "weights of now" "take STICKSLIP_WEIGHTS_COMMITTED or STICKSLIP_WEIGHTS_REFERENCE";
+    FrozenWeights Weights "frozen weights" "take STICKSLIP_WEIGHTS_CURRENT";
+    KeptOverlaps Weights "STICKSLIP_WEIGHTS_PERSISTENT" "take other weights";
+    PaperSlip Slip "the paper's slip measure" "take STICKSLIP_SLIP_OBJECTIVE or STICKSLIP_SLIP_INCREMENT";
+    Friction Law "friction" "take STICKSLIP_FRICTION_NONE";
+    OtherLaw Law "a law that is not Coulomb's" "take STICKSLIP_FRICTION_COULOMB or STICKSLIP_FRICTION_NONE";
+    Tied Law "tied surfaces" "take another law";
+    OwnLaw Law "a law of one's own" "leave Coulomb's";
+    Orthotropic Law "orthotropic friction" "give one mu";
+    Points Decision "STICKSLIP_DECISION_POINTS" "take STICKSLIP_DECISION_NODES";
+    ElementPoints Integration "points that stand for overlaps (options.element_points)" "take STICKSLIP_INTEGRATION_SEGMENTS";
+    FrozenNormals Tangent "STICKSLIP_TANGENT_FROZEN_NORMALS" "take the exact tangent";
+    Carried Coverage "weak_coverage > 0 (the default of dual multipliers)" "give STICKSLIP_WEAK_COVERAGE_NONE";
+    Analytic Mortar "an analytic mortar side" "mesh its surface";
+    MovingFrame Mortar "equations of the frame of an analytic surface (mortar.equations)" "give the surface facets, or its frame none (-1)";
+    Offsets Offsets "offsets" "";
+    MortarOffsets Offsets "offsets of the mortar nodes" "give them to the non-mortar nodes";
+    Elsewhere Parts "parts of an interface (owned)" "";
+    Shared Parts "nodes that handles share (owned)" "give them to one handle, with all facets around them";
+    Sums Parts "sums of several handles" "";
+    SumsTangent Parts "the tangent by sums of several handles" "";
+    Condensed Call "condensation" "keep multipliers as unknowns";
+    InPlace Call "a matrix condensed in place" "take the pieces (stickslip_interface_condensed_coo), which add up over the handles";
+    Heat Call "heat" "";
+    HeatMotion Call "derivatives of heat by displacements" "take STICKSLIP_HEAT_TEMPERATURES and solve for temperatures and displacements in turns";
+    NodeHistory Call "a history of nodes (stickslip_interface_set_committed)" "import one of points (stickslip_interface_history_import)";
+    ShapeOffsets Call "offsets that follow from a shape" "";
+}
+
+/// Features that are there at once: a bit for each.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Features(u64);
+
+impl Features {
+    /// Of these.
+    pub const fn of(features: &[Feature]) -> Features {
+        let (mut bits, mut k) = (0, 0);
+        while k < features.len() {
+            bits |= 1 << features[k] as u8;
+            k += 1;
+        }
+        Features(bits)
+    }
+
+    /// Those of the list that are there.
+    #[inline]
+    pub fn which(list: &[(Feature, bool)]) -> Features {
+        Features(list.iter().fold(0, |bits, (feature, is_there)| bits | u64::from(*is_there) << *feature as u8))
+    }
+
+    /// These and others.
+    #[inline]
+    pub const fn and(self, others: Features) -> Features {
+        Features(self.0 | others.0)
+    }
+
+    /// Whether all of these are among them.
+    #[inline]
+    pub const fn have(self, all: Features) -> bool {
+        self.0 & all.0 == all.0
+    }
+
+    /// One by one, in the order of [`FEATURES`].
+    pub fn each(self) -> impl Iterator<Item = &'static About> {
+        FEATURES.iter().filter(move |about| self.0 >> about.feature as u8 & 1 == 1)
+    }
+}
