@@ -110,8 +110,10 @@ fn read_heat(p: *const stickslip_heat) -> Result<Conductance> {
 /// to the caller's arrays. Of a part of an interface (`owned`) they are what its own nodes give, to be added up like forces. In
 /// plane models they are of the thickness, in axisymmetric ones of the whole ring.
 ///
+/// Not with (UNSUPPORTED): an analytic mortar side; points that decide (STICKSLIP_DECISION_POINTS).
+///
 /// Errors: as `stickslip_interface_residual` without sums; INVALID_VALUE (a member of heat), NOT_FINITE (temperatures; a result that
-/// overflows), UNSUPPORTED (an analytic mortar side, which has no temperatures; points that decide what is closed).
+/// overflows), UNSUPPORTED.
 /// Cost: after a residual at the same point O(pairs); where surfaces are apart an integration. Allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_heat(
@@ -187,8 +189,10 @@ fn read_temperatures<'a>(
 /// NULL only count is written, and capacity is not read. Entries of [F L/(T K)], [F/T], [L^3/T]. After NOT_FINITE because a value
 /// overflows, values mean nothing.
 ///
+/// Not with (UNSUPPORTED): normals of now (STICKSLIP_NORMALS_CURRENT).
+///
 /// Errors: those of `stickslip_interface_heat`, INDEX_OUT_OF_RANGE (an equation below the base), INVALID_VALUE (which), BUFFER_TOO_SMALL,
-/// UNSUPPORTED (columns of displacements with normals of now).
+/// UNSUPPORTED.
 /// Cost: as the heat; with all columns the derivatives of all weights, about twice a tangent of forces. Counting costs the same.
 /// Allocates.
 #[unsafe(no_mangle)]

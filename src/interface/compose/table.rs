@@ -62,7 +62,7 @@ pub const ROWS: &[Row] = &[
         &[PaperSlip],
     ),
     meaningless(&[Points, StandardBasis], "gaps of points are measured by dual functions", &[StandardBasis]),
-    not_built(&[Points, KeptOverlaps], "overlaps are kept node by node", &[WeightsNow, Points]),
+    not_built(&[Points, KeptOverlaps], "overlaps are kept node by node", &[KeptOverlaps, Points]),
     not_built(&[Points, NormalsNow], "", &[NormalsNow, Points]),
     not_built(&[Points, Augmented], "", &[Augmented, Points]),
     not_built(&[Points, ElementPoints], "", &[ElementPoints]),

@@ -42,6 +42,8 @@ const CONDUCTANCE: Conductance = Conductance {
 pub struct Found {
     pub wrong: Option<String>,
     pub compared: usize,
+    /// Nodes with a gap, that stick, that slip.
+    pub states: [usize; 3],
 }
 
 impl Found {
@@ -108,6 +110,12 @@ where
         let at = scene.at::<N>(step);
         let before = when(Asked::Residual, handles.residual(&at))?;
         balance(&scene, &at, &before, &mut found);
+        let answers = when(Asked::Residual, handles.answers(&at))?;
+        answers
+            .iter()
+            .zip(&scene.has_row)
+            .filter(|(_, has)| **has)
+            .for_each(|(r, _)| found.states[r.state as usize] += 1);
         let mut system = System::new(&scene, &mut handles, &at)?;
         tangents(&mut system, &mut found, step)?;
         if !choice.is("heat", "no") {
@@ -230,7 +238,9 @@ where
 {
     let mut others = Handles::<N>::new(scene)?;
     for ((to, from), kept) in others.all.iter_mut().zip(&handles.all).zip(&handles.mortar) {
-        when(Asked::SetCommitted, to.set_committed(&at.x1, &of(kept, &at.x2), &from.history().slip, 1))?;
+        let mut slip = from.history().slip.clone(); // none is kept without friction
+        slip.resize(at.x1.len(), Vec3::zeros());
+        when(Asked::SetCommitted, to.set_committed(&at.x1, &of(kept, &at.x2), &slip, 1))?;
         when(Asked::SetCommitted, to.set_law_states(from.law_states()))?;
     }
     let next = scene.at::<N>(1);

@@ -140,6 +140,12 @@ impl Choice {
         if !self.is("heat", "no") && self.is("ranks", "sums") {
             return Some("no call for heat takes sums");
         }
+        if self.is("integration", "hybrid") && self.is("ranks", "sums") {
+            return Some("facets that both shares cover in part are refused, by what covers them and not by a feature");
+        }
+        if self.is("integration", "elements") && self.is("ranks", "sums") && self.is("basis", "dual") {
+            return Some("a share covers too few points of a facet for its dual multipliers");
+        }
         None
     }
 
@@ -206,7 +212,7 @@ impl Choice {
             }
         };
         call(Asked::Residual, self.is("ranks", "sums"), &[Feature::Sums]);
-        call(Asked::Tangent, self.is("ranks", "sums"), &[Feature::Sums, Feature::SumsTangent]);
+        call(Asked::Tangent, self.is("ranks", "sums") && !self.is_condensed(), &[Feature::Sums, Feature::SumsTangent]);
         call(Asked::Condensed, self.is_condensed(), &[Feature::Condensed]);
         call(Asked::InPlace, self.is("system", "inplace"), &[Feature::Condensed, Feature::InPlace]);
         call(Asked::Heat, !self.is("heat", "no"), &[Feature::Heat]);

@@ -4,6 +4,7 @@
 mod check;
 mod choice;
 mod handles;
+mod page;
 mod scene;
 mod system;
 
@@ -20,6 +21,8 @@ const MANY: usize = 5000;
 /// Most choices off the default of a random combination.
 const MOST: usize = 8;
 const SEED: u64 = 44;
+/// One node of so many at least has each of the three states: no answer goes untried.
+const LEAST_SHARE: usize = 10;
 
 /// Numbers below a bound, the same in every run.
 struct Dice(u64);
@@ -38,6 +41,7 @@ struct Count {
     refused: usize,
     not_applicable: usize,
     compared: usize,
+    states: [usize; 3],
     faults: Vec<String>,
 }
 
@@ -58,6 +62,7 @@ fn count(choice: Choice, count: &Mutex<Count>) {
         (Ok(Ok(found)), None) => {
             to.works += 1;
             to.compared += found.compared;
+            to.states.iter_mut().zip(found.states).for_each(|(to, of)| *to += of);
             found.wrong
         }
         (Ok(Err(refused)), Some((asked, sentence))) => {
@@ -89,9 +94,9 @@ fn all(choices: &[Choice]) -> Count {
     });
     let mut found = found.into_inner().unwrap();
     found.faults.sort();
-    let Count { works, refused, not_applicable, compared, .. } = &found;
+    let Count { works, refused, not_applicable, compared, states, .. } = &found;
     println!(
-        "{} combinations: {works} work, {refused} are refused, {not_applicable} cannot be asked for; {compared} derivatives",
+        "{} combinations: {works} work, {refused} are refused, {not_applicable} cannot be asked for; {compared} derivatives; {states:?} nodes gap, stick, slip",
         choices.len()
     );
     found
@@ -103,6 +108,8 @@ fn must_hold(choices: &[Choice]) {
     assert!(faults.is_empty(), "{} faults:\n{}", faults.len(), faults.join("\n"));
     // A test that compares nothing would hold, too.
     assert!(found.compared > found.works, "{} derivatives of {}", found.compared, found.works);
+    let nodes: usize = found.states.iter().sum();
+    assert!(found.states.iter().all(|n| *n > nodes / LEAST_SHARE), "gap, stick, slip: {:?}", found.states);
 }
 
 /// Every value off the default alone, and every two of them.
@@ -118,16 +125,16 @@ fn pairs() -> Vec<Choice> {
     choices
 }
 
-/// So many random ones, with one to so many choices off the default.
+/// So many random ones, of one to [`MOST`] kinds; every second one with what it needs by its definition.
 fn random(seed: u64, n: usize) -> Vec<Choice> {
     let mut dice = Dice(seed);
     let mut one = |k: usize| {
         let mut choice = Choice::DEFAULT;
-        for _ in 0..1 + k % MOST {
-            let d = dice.below(DIMENSIONS.len());
+        let kinds: Vec<usize> = (0..1 + k % MOST).map(|_| dice.below(DIMENSIONS.len())).collect();
+        for &d in &kinds {
             choice = choice.with(d, dice.below(DIMENSIONS[d].1.len()));
         }
-        choice
+        if k % 2 == 0 { choice.completed(&kinds) } else { choice }
     };
     (0..n).map(&mut one).collect()
 }
