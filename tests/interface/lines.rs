@@ -316,12 +316,12 @@ fn what_lines_do_not_take_is_refused() {
     let plane = Measure::Thickness(1.0);
     let sides = || [of(&one, "nonmortar", plane), of(&two, "mortar", plane)];
     for (options, name) in [
-        (Options { form: Form::Augmented, ..options() }, "augmented form with lines"),
-        (Options { normals: Normals::Current, ..options() }, "normals of now with lines"),
-        (Options { tangent: Tangent::FrozenNormals, ..options() }, "FROZEN_NORMALS with lines"),
+        (Options { form: Form::Augmented, ..options() }, "FORM_AUGMENTED) with lines"),
+        (Options { normals: Normals::Current, ..options() }, "NORMALS_CURRENT) with lines"),
+        (Options { tangent: Tangent::FrozenNormals, ..options() }, "FROZEN_NORMALS) with lines"),
         (
             Options { basis: MultiplierBasis::Dual, space: MultiplierSpace::Sub, ..options() },
-            "dual multipliers at all nodes",
+            "multipliers at all nodes",
         ),
     ] {
         let text = refusal(options, sides());

@@ -63,6 +63,12 @@ macro_rules! features {
         pub const FEATURES: &[About] = &[
             $(About { feature: Feature::$feature, group: Group::$group, name: $name, without: $without },)*
         ];
+
+        /// Their names, a line for each: see [`super::Row`] for why this is no table of strings.
+        const NAMES: &str = concat!($($name, "\n"),*);
+
+        /// How to do without, likewise.
+        const WITHOUT: &str = concat!($($without, "\n"),*);
     };
 }
 
@@ -106,6 +112,23 @@ features! {
     ShapeOffsets Call "offsets that follow from a shape" "";
 }
 
+/// A line of a text, by its number.
+pub fn line(text: &'static str, k: usize) -> &'static str {
+    text.split('\n').nth(k).unwrap_or_default()
+}
+
+impl Feature {
+    /// What it is called in refusals.
+    pub fn name(self) -> &'static str {
+        line(NAMES, self as usize)
+    }
+
+    /// How a host does without.
+    pub fn without(self) -> &'static str {
+        line(WITHOUT, self as usize)
+    }
+}
+
 /// Features that are there at once: a bit for each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Features(u64);
@@ -137,10 +160,5 @@ impl Features {
     #[inline]
     pub const fn have(self, all: Features) -> bool {
         self.0 & all.0 == all.0
-    }
-
-    /// One by one, in the order of [`FEATURES`].
-    pub fn each(self) -> impl Iterator<Item = &'static About> {
-        FEATURES.iter().filter(move |about| self.0 >> about.feature as u8 & 1 == 1)
     }
 }

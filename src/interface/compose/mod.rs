@@ -21,6 +21,7 @@ pub fn verdict(has: Features) -> Option<&'static Row> {
 ///
 /// # Errors
 /// [`Kind::Unsupported`], with the sentence of the table's row.
+#[inline(never)]
 pub fn refuse(has: Features) -> Result<()> {
     verdict(has).map_or(Ok(()), |row| Err(Error::new(Kind::Unsupported, row.sentence())))
 }

@@ -1,6 +1,5 @@
 //! What a host is told: which features, why, and the ways out.
 
-use super::feature::{FEATURES, Feature};
 use super::table::{Row, Verdict};
 use crate::error::{Result, Text};
 
@@ -11,15 +10,15 @@ fn append(to: &mut Text, mark: &str, what: &str) -> Result<()> {
 impl Row {
     fn written(&self) -> Result<Text> {
         let mut text = Text::EMPTY;
-        for (k, feature) in self.features.iter().enumerate() {
+        for (k, feature) in self.features.as_slice().iter().enumerate() {
             append(&mut text, ["", " with ", " and ", " and "][k.min(3)], feature.name())?;
         }
         let why = match self.verdict {
-            Verdict::NotBuilt if self.why.is_empty() => "this is not built",
-            _ => self.why,
+            Verdict::NotBuilt if self.why().is_empty() => "this is not built",
+            _ => self.why(),
         };
         append(&mut text, ": ", why)?;
-        let ways = self.without.iter().map(|way| way.without());
+        let ways = self.without.as_slice().iter().map(|way| way.without());
         ways.enumerate().try_for_each(|(k, way)| append(&mut text, if k == 0 { "; " } else { ", or " }, way))?;
         Ok(text)
     }
@@ -31,37 +30,33 @@ impl Row {
     }
 }
 
-impl Feature {
-    /// What it is called in refusals.
-    pub fn name(self) -> &'static str {
-        FEATURES[self as usize].name
-    }
-
-    /// How a host does without.
-    pub fn without(self) -> &'static str {
-        FEATURES[self as usize].without
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::feature::{FEATURES, Feature};
     use super::super::table::ROWS;
     use super::*;
 
     #[test]
     fn features_are_in_the_order_of_their_numbers() {
         assert!(FEATURES.iter().enumerate().all(|(k, about)| about.feature as usize == k));
+        assert!(FEATURES.iter().all(|a| a.feature.name() == a.name && a.feature.without() == a.without));
         assert!(FEATURES.len() <= 64, "a bit for each");
     }
 
     #[test]
     fn every_row_says_why_and_a_way_out() {
-        for row in ROWS {
+        for row in &ROWS {
             let text = row.sentence();
-            assert!(row.features.len() >= 2, "{text}");
-            assert!(row.verdict == Verdict::NotBuilt || !row.why.is_empty(), "{text}");
-            assert!(row.without.iter().all(|way| !way.without().is_empty() && row.features.contains(way)), "{text}");
-            assert!(!row.without.is_empty() || row.why.contains("; ") || row.features[0] == Feature::ShapeOffsets);
+            assert!(row.features.as_slice().len() >= 2, "{text}");
+            assert!(row.verdict == Verdict::NotBuilt || !row.why().is_empty(), "{text}");
+            assert!(
+                row.without
+                    .as_slice()
+                    .iter()
+                    .all(|way| !way.without().is_empty() && row.features.as_slice().contains(way)),
+                "{text}"
+            );
+            assert!(!row.without.as_slice().is_empty() || row.features.as_slice()[0] == Feature::ShapeOffsets);
         }
     }
 

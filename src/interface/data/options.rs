@@ -290,6 +290,7 @@ impl Options {
     }
 
     /// What is chosen here that does not go with everything.
+    #[inline(never)]
     pub fn features(&self) -> Features {
         let (law, is_now) = (self.friction.law(), self.effective_weights() == Weights::Current);
         let is_known = matches!(self.friction, Friction::None | Friction::Coulomb);

@@ -93,6 +93,7 @@ impl<const N: usize> Setup<N> {
     }
 
     /// What it has that does not go with everything.
+    #[inline(never)]
     pub fn features(&self) -> Features {
         self.options.features().and(what::of_surfaces([&self.nonmortar, &self.mortar], self.options.space)).and(
             Features::which(&[
@@ -109,6 +110,7 @@ impl<const N: usize> Setup<N> {
     }
 
     /// Refuses those of the list that are there, where they do not go with what it has.
+    #[inline(never)]
     pub fn refuse(&self, list: &[(Feature, bool)]) -> Result<()> {
         compose::refuse(self.features().and(Features::which(list)))
     }

@@ -5,6 +5,7 @@ use crate::interface::compose::{Feature, Features};
 use crate::mortar::MultiplierSpace;
 
 /// The features of both sides, non-mortar first, with multipliers where the options say.
+#[inline(never)]
 pub fn of_surfaces([one, two]: [&Surface; 2], space: MultiplierSpace) -> Features {
     let has_lines = one.lines().is_some();
     let has_parents = one.parents.is_some() || two.parents.is_some();

@@ -36,14 +36,14 @@ const PLACES: [(&str, &str, Feature); 21] = [
 ];
 
 fn others(row: &Row, feature: Feature) -> String {
-    let others: Vec<_> = row.features.iter().filter(|f| **f != feature).map(|f| f.name()).collect();
+    let others: Vec<_> = row.features.as_slice().iter().filter(|f| **f != feature).map(|f| f.name()).collect();
     others.join(" and ")
 }
 
 /// The sentence of a feature, as a comment.
 fn not_with(feature: Feature) -> String {
     let rows: Vec<_> =
-        ROWS.iter().filter(|row| row.features.contains(&feature)).map(|row| others(row, feature)).collect();
+        ROWS.iter().filter(|row| row.features.as_slice().contains(&feature)).map(|row| others(row, feature)).collect();
     let text = if rows.is_empty() { "nothing.".to_owned() } else { format!("{}.", rows.join("; ")) };
     let (mut lines, mut line) = (String::new(), format!("/// {LABEL}"));
     for word in text.split(' ') {
@@ -82,18 +82,20 @@ fn mark(verdict: Verdict) -> &'static str {
 
 /// What the table says of two features, with others or alone.
 fn cell(one: Feature, two: Feature) -> String {
-    let both = |row: &&Row| row.features.contains(&one) && row.features.contains(&two);
-    match ROWS.iter().filter(both).min_by_key(|row| row.features.len()) {
+    let both = |row: &&Row| row.features.as_slice().contains(&one) && row.features.as_slice().contains(&two);
+    match ROWS.iter().filter(both).min_by_key(|row| row.features.as_slice().len()) {
         None => String::new(),
-        Some(row) if row.features.len() == 2 => mark(row.verdict).to_owned(),
+        Some(row) if row.features.as_slice().len() == 2 => mark(row.verdict).to_owned(),
         Some(row) => format!("({})", mark(row.verdict)),
     }
 }
 
 fn page() -> String {
     let mut page = String::from(PREFACE);
-    let named: Vec<&About> =
-        FEATURES.iter().filter(|about| ROWS.iter().any(|row| row.features.contains(&about.feature))).collect();
+    let named: Vec<&About> = FEATURES
+        .iter()
+        .filter(|about| ROWS.iter().any(|row| row.features.as_slice().contains(&about.feature)))
+        .collect();
     let numbers: Vec<String> = (1..named.len()).map(|k| k.to_string()).collect();
     writeln!(page, "| | | {} |", numbers.join(" | ")).unwrap();
     writeln!(page, "|---|---|{}", "---|".repeat(numbers.len())).unwrap();
@@ -111,10 +113,10 @@ fn page() -> String {
         .unwrap();
     }
     page += LIST;
-    for row in ROWS {
-        let together: Vec<_> = row.features.iter().map(|f| f.name()).collect();
-        let ways: Vec<_> = row.without.iter().map(|f| f.without()).collect();
-        let why = if row.why.is_empty() { "" } else { row.why };
+    for row in &ROWS {
+        let together: Vec<_> = row.features.as_slice().iter().map(|f| f.name()).collect();
+        let ways: Vec<_> = row.without.as_slice().iter().map(|f| f.without()).collect();
+        let why = row.why();
         let verdict = if row.verdict == Verdict::Meaningless { "meaningless" } else { "not built" };
         writeln!(page, "| {} | {verdict} | {why} | {} |", together.join(" with "), ways.join(", or ")).unwrap();
     }
