@@ -15,7 +15,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: packages hosts newcomer help demo gallery effects aids study border compare bench random fuzz stability scaling scaling-ranks ranks ranks-full newest-petsc ratios digest wheel python-examples check test test-long test-full build install uninstall docs reference abi sizes header meshes clean cmake-build rust-tests
+.PHONY: packages hosts newcomer help demo gallery effects aids study border compare bench random fuzz stability scaling scaling-ranks ranks ranks-full newest-petsc ratios digest wheel python-examples check test test-long test-full build install uninstall docs reference abi sizes header compose meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
@@ -54,6 +54,7 @@ help:
 	@echo "make abi     renew the committed description of the ABI (tests/abi)"
 	@echo "make sizes   what each feature that can be left out adds to the library, half an hour (FIGURES=1: renew the table)"
 	@echo "make header  make include/stickslip.h again from src/capi"
+	@echo "make compose  make docs/compose.md and what the header says does not go together again from src/interface/compose"
 	@echo "make meshes  make the example meshes again with Gmsh"
 	@echo "make clean   remove $(BUILD)/ and target/"
 
@@ -333,6 +334,11 @@ sizes:
 
 header:
 	STICKSLIP_WRITE_HEADER=1 cargo test --locked --test capi header_is_up_to_date
+
+# What goes with what, from src/interface/compose/table.rs: the page and the header's sentences.
+compose:
+	STICKSLIP_WRITE_COMPOSE=1 cargo test --locked --test interface compose::page
+	@$(MAKE) --no-print-directory header
 
 meshes:
 	@.ci/setup meshes

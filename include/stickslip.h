@@ -213,6 +213,8 @@
 #define STICKSLIP_FORM_MULTIPLIER 0
 
 /// Forces use the projected traction (the paper's form). Same solutions.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); equations of the frame of an analytic surface
+/// (mortar.equations); quadratic facets; lines; condensation; the tangent by sums of several handles.
 #define STICKSLIP_FORM_AUGMENTED 1
 
 /// P(g[n_n,x] - g[n_{n+1},x]): invariant under rigid motion within a step. Default.
@@ -222,6 +224,8 @@
 #define STICKSLIP_SLIP_INCREMENT 1
 
 /// P g[n_n,x]: the paper's literal (12); drifts on curved interfaces.
+/// Not with (UNSUPPORTED): persistent weights (STICKSLIP_WEIGHTS_PERSISTENT); points that decide (STICKSLIP_DECISION_POINTS)
+/// and friction (STICKSLIP_FRICTION_COULOMB).
 #define STICKSLIP_SLIP_PAPER 2
 
 /// Weights of the current configuration, linearised: large sliding. Default.
@@ -234,16 +238,20 @@
 #define STICKSLIP_WEIGHTS_REFERENCE 2
 
 /// Weights frozen at the last commit, and what overlaps there counts as closed: a step need not part it. The work of the contact forces over a
-/// step is then never positive, whatever slides and turns: for dynamics. Not with offsets, STICKSLIP_DECISION_POINTS and
-/// STICKSLIP_SLIP_PAPER.
+/// step is then never positive, whatever slides and turns: for dynamics.
+/// Not with (UNSUPPORTED): the paper's slip measure (STICKSLIP_SLIP_PAPER); points that decide (STICKSLIP_DECISION_POINTS);
+/// offsets.
 #define STICKSLIP_WEIGHTS_PERSISTENT 3
 
 /// Normals nu of the last commit, as in the paper: data of a step. Default.
 #define STICKSLIP_NORMALS_COMMITTED 0
 
 /// Normals of the current configuration, linearised: the size of a step does not decide how accurate normals are, a surface may
-/// turn by any angle within it, and a step without load moves nothing. With STICKSLIP_WEIGHTS_CURRENT and averaged normals
-/// only; tied surfaces use no normals. Which facets look at each other follows the motion, too.
+/// turn by any angle within it, and a step without load moves nothing. Tied surfaces
+/// use no normals. Which facets look at each other follows the motion, too.
+/// Not with (UNSUPPORTED): frozen weights; points that decide (STICKSLIP_DECISION_POINTS); quadratic facets; lines; normals
+/// of the host; orthotropic friction; offsets and nodes that others carry (weak_coverage > 0, the default of dual
+/// multipliers) and three multipliers a node; derivatives of heat by displacements.
 #define STICKSLIP_NORMALS_CURRENT 1
 
 /// Coulomb friction with the coefficient mu (0 allowed). Default.
@@ -254,6 +262,8 @@
 
 /// Mesh tying: a node that is covered in the first configuration keeps its place; weights of the reference. A gap at the
 /// start stays, and turns with the non-mortar facets; linear where there is none.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); equations of the frame of an analytic surface
+/// (mortar.equations).
 #define STICKSLIP_FRICTION_TIED 2
 
 /// Opens and closes, never slips.
@@ -270,6 +280,8 @@
 
 /// The mortar side is rigid and in closed form, STICKSLIP_SHAPE_...: no facets, no search. Its stickslip_surface has
 /// four nodes (of lines three), a frame that is fixed to it and that the host moves as a rigid body: see there.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); offsets of the mortar nodes; heat; offsets that
+/// follow from a shape.
 #define STICKSLIP_MORTAR_ANALYTIC 2
 
 /// A plane; of lines a straight line. Default.
@@ -299,6 +311,7 @@
 #define STICKSLIP_SHORTCUT_UNCOVERED 8
 
 /// Standard shape functions for the multiplier (the paper's). Default.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); condensation.
 #define STICKSLIP_BASIS_STANDARD 0
 
 /// Dual functions, biorthogonal to the shape functions over what is covered of a facet: a node's force is its multiplier
@@ -306,7 +319,9 @@
 /// mortar nodes of all pairs of a facet. Neighbours carry weakly covered nodes unless weak_coverage says NONE. With
 /// STICKSLIP_INTEGRATION_ELEMENTS a facet whose covered points do not determine its multipliers is refused
 /// (DEGENERATE_FACET); STICKSLIP_INTEGRATION_HYBRID takes overlaps there from the next commit on. The stages
-/// have calls of their own for it. UNSUPPORTED in this version: sums of handles.
+/// have calls of their own for it.
+/// Not with (UNSUPPORTED): equations of the frame of an analytic surface (mortar.equations); multipliers at all nodes of
+/// quadratic facets or lines (STICKSLIP_SPACE_SUB); sums of several handles.
 #define STICKSLIP_BASIS_DUAL 1
 
 /// weak_coverage: every covered node has a multiplier of its own.
@@ -338,6 +353,7 @@
 /// Over element_points x element_points points on each non-mortar facet, each where it falls on a mortar facet: no
 /// clipping. Functions with kinks at the mortar edges are integrated as if they were smooth: patch tests fail, however
 /// many points there are. The tangent is that of the sums; they jump where a point passes a mortar edge.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); quadratic facets; lines.
 #define STICKSLIP_INTEGRATION_ELEMENTS 1
 
 /// As ELEMENTS; but as SEGMENTS for all pairs of a non-mortar facet of which a point or a corner was uncovered at the last
@@ -352,6 +368,7 @@
 
 /// The tangent leaves out that facets' planes tilt: converges linearly too, and saves nothing; for comparisons with
 /// codes that do so. Exact against an analytic mortar side.
+/// Not with (UNSUPPORTED): lines.
 #define STICKSLIP_TANGENT_FROZEN_NORMALS 2
 
 /// A node is closed or open. Default.
@@ -360,10 +377,16 @@
 /// Each point of an overlap is closed or open (docs/formulation.md 16): the border of the contact lies inside facets. modulus is needed,
 /// and is E* of both bodies together: 1 / E* = (1 - nu1^2) / E1 + (1 - nu2^2) / E2, of a rigid one without its part. The answer depends
 /// on it, by what vanishes with the facets' size. An augmentation beside it takes the place of r = 0.9 E* / h_A alone; r is then part of the
-/// answer, too. With STICKSLIP_BASIS_DUAL, and STICKSLIP_FRICTION_NONE with STICKSLIP_WEIGHTS_CURRENT, COMMITTED or REFERENCE, or STICKSLIP_FRICTION_COULOMB with STICKSLIP_WEIGHTS_COMMITTED
-/// or REFERENCE, and not with STICKSLIP_SLIP_PAPER. UNSUPPORTED: all others of these; laws of one's own; STICKSLIP_NORMALS_CURRENT; offsets with STICKSLIP_WEIGHTS_CURRENT;
-/// STICKSLIP_FORM_AUGMENTED, STICKSLIP_INTEGRATION_ELEMENTS and HYBRID, weak_coverage, quadratic facets, analytic mortar sides, sums of
-/// handles, parts (owned), condensed systems.
+/// answer, too.
+/// Not with (UNSUPPORTED): tied surfaces (STICKSLIP_FRICTION_TIED); a law that is not Coulomb's; friction
+/// (STICKSLIP_FRICTION_COULOMB) and weights of now (STICKSLIP_WEIGHTS_CURRENT); friction (STICKSLIP_FRICTION_COULOMB) and
+/// the paper's slip measure (STICKSLIP_SLIP_PAPER); standard multipliers (STICKSLIP_BASIS_STANDARD); persistent weights
+/// (STICKSLIP_WEIGHTS_PERSISTENT); normals of now (STICKSLIP_NORMALS_CURRENT); the augmented form
+/// (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (options.element_points); nodes that others carry
+/// (weak_coverage > 0, the default of dual multipliers); an analytic mortar side; facets with mid nodes; a law of one's own;
+/// offsets and weights of now (STICKSLIP_WEIGHTS_CURRENT); parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE); nodes
+/// that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes (stickslip_interface_set_committed) and friction
+/// (STICKSLIP_FRICTION_COULOMB); condensation; heat.
 #define STICKSLIP_DECISION_POINTS 1
 
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
@@ -510,6 +533,7 @@
 #define STICKSLIP_SPACE_CORNER 0
 
 /// Multipliers at all nodes, with the functions of the linear parts that the facet is cut into.
+/// Not with (UNSUPPORTED): dual multipliers (STICKSLIP_BASIS_DUAL).
 #define STICKSLIP_SPACE_SUB 1
 
 /// Facets of a solid: positions have three components.
@@ -565,7 +589,8 @@
 #define STICKSLIP_LAW_WEAKENING 2
 
 /// Orthotropic friction: mu along a direction, mu_across across it. Tractions stick within an ellipse, and slip goes at a right angle to
-/// its border. Not with STICKSLIP_NORMALS_CURRENT, and not with lines (UNSUPPORTED).
+/// its border.
+/// Not with (UNSUPPORTED): normals of now (STICKSLIP_NORMALS_CURRENT); lines.
 #define STICKSLIP_LAW_ORTHOTROPIC 3
 
 /// The most numbers a node that a law may remember.
@@ -674,8 +699,8 @@ typedef struct stickslip_options {
   int32_t multiplier_space;
   /// STICKSLIP_MODEL_...: whether facets are of a model in space, or lines of a plane or axisymmetric one. With lines every array of
   /// vectors of this interface has two components a node in place of three: positions, forces, multipliers, normals,
-  /// directions; so have equations. The frame of an analytic mortar side has three points. Not with STICKSLIP_FORM_AUGMENTED,
-  /// STICKSLIP_NORMALS_CURRENT, STICKSLIP_TANGENT_FROZEN_NORMALS or element points (UNSUPPORTED).
+  /// directions; so have equations. The frame of an analytic mortar side has three points. What
+  /// lines do not go with: docs/compose.md.
   int32_t model;
   /// Thickness of a plane model [L]; 0 (default): 1. 0 of other models.
   double thickness;
@@ -688,8 +713,7 @@ typedef struct stickslip_options {
 /// One surface of an interface.
 ///
 /// An analytic mortar side (STICKSLIP_MORTAR_ANALYTIC) has n_nodes = 4 (of lines 3) and n_facets = 0; facet_offsets and facet_nodes
-/// are NULL; equations are NULL or all -1, or those of a frame that `stickslip_rigid_create` puts together (not with lines, quadratic
-/// facets, dual multipliers, the augmented form, weak_coverage, nor tied: UNSUPPORTED). Its nodes P0..P3 are a frame that is fixed to the surface and moves as a rigid
+/// are NULL; equations are NULL or all -1, or those of a frame that `stickslip_rigid_create` puts together. Its nodes P0..P3 are a frame that is fixed to the surface and moves as a rigid
 /// body, within 1e-8 of its lengths (INVALID_VALUE otherwise); to move the surface, move them. P0: a point of the
 /// plane, the sphere's centre, a point of the axis. P1 - P0: the plane's normal, out of its body, or the direction of
 /// the axis; of lines a point of the straight line and its normal, or the centre of the circle and any direction. The three edges
@@ -699,6 +723,11 @@ typedef struct stickslip_options {
 /// frame that moves it by more than 1e-8 of the longest facet edge is refused, INVALID_VALUE. The forces on these nodes
 /// are statically equivalent to those on the surface. A facet takes part in a step when at t_n its normal opposes the
 /// surface's to within 80 degrees, as between facets; it then counts as covered.
+///
+/// A frame with equations:
+/// Not with (UNSUPPORTED): quadratic facets; lines; the augmented form (STICKSLIP_FORM_AUGMENTED); dual multipliers
+/// (STICKSLIP_BASIS_DUAL); nodes that others carry (weak_coverage > 0, the default of dual multipliers); tied surfaces
+/// (STICKSLIP_FRICTION_TIED).
 typedef struct stickslip_surface {
   /// sizeof(stickslip_surface).
   uint64_t struct_size;
@@ -1486,9 +1515,10 @@ int32_t stickslip_interface_set_previous(struct stickslip_interface *interface,
 /// slip (3 n1) [L]: what `stickslip_interface_states` had after the commit; NULL: none. Interfaces that remember no slip
 /// (tied, rough, without friction) ignore it. What a law remembers becomes 0; `stickslip_interface_set_law_states` afterwards.
 ///
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS) and friction (STICKSLIP_FRICTION_COULOMB).
+///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (commits < 0, a
-/// mortar surface in layers, an analytic surface's frame), UNSUPPORTED (friction where points decide: what they remember is
-/// not in it).
+/// mortar surface in layers, an analytic surface's frame), UNSUPPORTED.
 /// Cost: one search and one integration; allocates.
 int32_t stickslip_interface_set_committed(struct stickslip_interface *interface,
                                           const double *x1,
@@ -1539,7 +1569,8 @@ int32_t stickslip_interface_sums(struct stickslip_interface *interface,
 /// step belongs to the past.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL,
-/// INVALID_VALUE (as `stickslip_interface_sums`), UNSUPPORTED (sums with weak_coverage).
+/// INVALID_VALUE (as `stickslip_interface_sums`), UNSUPPORTED (what sums do not go with:
+/// docs/compose.md).
 /// Cost: as `stickslip_interface_sums`.
 int32_t stickslip_interface_states(struct stickslip_interface *interface,
                                    const double *x1,
@@ -1558,7 +1589,8 @@ int32_t stickslip_interface_states(struct stickslip_interface *interface,
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL; within
 /// Newton treat them as a domain error and take a smaller step. INVALID_VALUE (as `stickslip_interface_sums`),
-/// UNSUPPORTED (sums with weak_coverage).
+/// UNSUPPORTED (what sums do not go with:
+/// docs/compose.md).
 /// Cost: as `stickslip_interface_sums`.
 int32_t stickslip_interface_residual(struct stickslip_interface *interface,
                                      const double *x1,
@@ -1581,7 +1613,8 @@ int32_t stickslip_interface_residual(struct stickslip_interface *interface,
 /// they are as they were.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as the
-/// residual), BUFFER_TOO_SMALL, UNSUPPORTED (sums with the augmented form or weak_coverage).
+/// residual), BUFFER_TOO_SMALL, UNSUPPORTED (what sums do not go with:
+/// docs/compose.md).
 /// Cost: at new positions those of the residual, then the derivatives of every pair's weights (frozen weights:
 /// none), O(pairs); counting needs no derivatives. Allocates.
 int32_t stickslip_interface_tangent_coo(struct stickslip_interface *interface,
@@ -1603,7 +1636,8 @@ int32_t stickslip_interface_tangent_coo(struct stickslip_interface *interface,
 /// `stickslip_interface_plan_csr` and keeps the places.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as the
-/// residual), INVALID_SIZE, INDEX_OUT_OF_RANGE (an equation beyond n_rows), UNSUPPORTED (sums with the augmented form or weak_coverage),
+/// residual), INVALID_SIZE, INDEX_OUT_OF_RANGE (an equation beyond n_rows), UNSUPPORTED (what sums do not go with:
+/// docs/compose.md),
 /// and MISSING_ENTRY when the matrix lacks an entry (renew the pattern from
 /// `stickslip_interface_pattern_coo`); then nothing was added.
 /// Cost: as `stickslip_interface_tangent_coo`, and a search in a row for each entry, by bisection where the
@@ -1708,8 +1742,8 @@ int32_t stickslip_interface_plan_csr32(struct stickslip_interface *interface,
 /// Units of an entry: its row's over its column's. After MISSING_ENTRY, OUT_OF_MEMORY and NOT_FINITE (a value overflows) they
 /// mean nothing; after any other error they are as they were.
 ///
-/// Errors: those of `stickslip_interface_residual`, INVALID_VALUE (there is no plan), BUFFER_TOO_SMALL, UNSUPPORTED (sums with
-/// the augmented form or weak_coverage), MISSING_ENTRY: the plan lacks an entry; make it again.
+/// Errors: those of `stickslip_interface_residual`, INVALID_VALUE (there is no plan), BUFFER_TOO_SMALL, UNSUPPORTED (what sums do not go with:
+/// docs/compose.md), MISSING_ENTRY: the plan lacks an entry; make it again.
 /// Cost: at new positions those of the residual, then the derivatives of every pair's weights (frozen weights: none), each
 /// block added at its place without a search. Allocates.
 int32_t stickslip_interface_plan_values(struct stickslip_interface *interface,
@@ -1776,10 +1810,15 @@ int32_t stickslip_interface_carriers(struct stickslip_interface *interface,
 /// from given multipliers: at the old positions, host1 being the residual there plus J du, J the host's matrix with
 /// STICKSLIP_CONDENSED_FORCES.
 ///
+/// Not with (UNSUPPORTED): standard multipliers (STICKSLIP_BASIS_STANDARD); points that decide (STICKSLIP_DECISION_POINTS);
+/// the augmented form (STICKSLIP_FORM_AUGMENTED); nodes that handles share (owned has STICKSLIP_NODE_SHARED); parts of an
+/// interface (owned has STICKSLIP_NODE_ELSEWHERE) and quadratic facets; parts of an interface (owned has
+/// STICKSLIP_NODE_ELSEWHERE) and lines.
+///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as
-/// `stickslip_interface_sums`); UNSUPPORTED: standard multipliers, the augmented form, a prescribed component (equation -1)
+/// `stickslip_interface_sums`); UNSUPPORTED too: a prescribed component (equation -1)
 /// of a node that has a multiplier there, two nodes with an equation in common (of which one has a multiplier), two
-/// components of one, shared nodes, quadratic facets or lines with nodes whose multipliers act elsewhere; and
+/// components of one; and
 /// a node that carries others and is not covered any more: within Newton's method take a smaller step.
 /// Cost: as `stickslip_interface_sums`, and a sort of the nodes.
 int32_t stickslip_interface_condensed_multipliers(struct stickslip_interface *interface,
@@ -1839,8 +1878,9 @@ int32_t stickslip_interface_condensed_coo(struct stickslip_interface *interface,
 /// x1, x2, lambda as there; n_rows, row_offsets, columns, values as for `stickslip_interface_tangent_csr`; only the rows of
 /// the interface's nodes are read and changed.
 ///
-/// Errors: as `stickslip_interface_condensed_multipliers`, UNSUPPORTED too where multipliers act elsewhere (take the pieces, which
-/// add up over the handles), NOT_FINITE (the result), INVALID_SIZE, INDEX_OUT_OF_RANGE, and
+/// Not with (UNSUPPORTED): parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE).
+///
+/// Errors: as `stickslip_interface_condensed_multipliers`, NOT_FINITE (the result), INVALID_SIZE, INDEX_OUT_OF_RANGE, and
 /// MISSING_ENTRY where the matrix lacks an entry (renew its pattern by `stickslip_interface_condensed_pattern`); then
 /// nothing was changed.
 /// Cost: as `stickslip_interface_tangent_csr`, and a sum of rows for each mortar node near a non-mortar one. Allocates.
@@ -2021,8 +2061,8 @@ int32_t stickslip_interface_report(struct stickslip_interface *interface,
 /// filled; its numbers are written. Against an analytic mortar side there are no pairs.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE (text_capacity, suspect_capacity), INVALID_VALUE (state; as
-/// `stickslip_interface_sums`), NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, UNSUPPORTED (sums
-/// with weak_coverage).
+/// `stickslip_interface_sums`), NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, UNSUPPORTED (what sums do not go with:
+/// docs/compose.md).
 /// Cost: those of a tangent, and every pair integrated once more with the degree-10 rule; allocates.
 int32_t stickslip_interface_diagnose(struct stickslip_interface *interface,
                                      const double *x1,
@@ -2420,8 +2460,8 @@ int32_t stickslip_facet_tangent(const struct stickslip_facet *facet,
 /// before the commit.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (modulus, least_traction; as
-/// `stickslip_interface_sums`), DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, UNSUPPORTED (sums with
-/// weak_coverage).
+/// `stickslip_interface_sums`), DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, UNSUPPORTED (what sums do not go with:
+/// docs/compose.md).
 /// Cost: as `stickslip_interface_states`; after a residual at the same positions no integration.
 int32_t stickslip_interface_equilibrium(struct stickslip_interface *interface,
                                         const double *x1,
@@ -2461,8 +2501,11 @@ int32_t stickslip_node_equilibrium(const struct stickslip_node *node,
 /// the history: set them again after a restart, before its import. Not of an analytic mortar side, whose shape or place says the
 /// same. On several processes each handle needs those of all of its nodes.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, UNSUPPORTED (offsets of an analytic surface; normals of now with three multipliers and
-/// weak_coverage > 0; points that decide with weights of now; persistent weights), and where pairs are sought anew those of `stickslip_interface_set_previous`.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS) and weights of now (STICKSLIP_WEIGHTS_CURRENT);
+/// normals of now (STICKSLIP_NORMALS_CURRENT) and nodes that others carry (weak_coverage > 0, the default of dual
+/// multipliers) and three multipliers a node; persistent weights (STICKSLIP_WEIGHTS_PERSISTENT).
+///
+/// Errors: NULL_POINTER, NOT_FINITE, UNSUPPORTED, and where pairs are sought anew those of `stickslip_interface_set_previous`.
 /// Cost: a copy; where the largest offsets change, one search. Allocates.
 int32_t stickslip_interface_set_offsets(struct stickslip_interface *interface,
                                         const double *offsets1,
@@ -2604,8 +2647,10 @@ int32_t stickslip_rigid_destroy(struct stickslip_rigid **rigid);
 /// of which kind they are: set it again after a restart, before the import. A law of the same kind goes on with the states that
 /// there are, and its numbers may change from step to step; another one begins with states 0, and no commit before it can be undone.
 ///
-/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a number; an interface with another law), UNSUPPORTED (see the kinds;
-/// points that decide).
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS).
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a number; an interface with another law), UNSUPPORTED (see
+/// above and the kinds).
 /// That the direction has no part in the surface at a node is refused where the node is evaluated (INVALID_VALUE).
 /// Cost: nothing grows with the surface but the states; allocates them.
 int32_t stickslip_interface_set_law(struct stickslip_interface *interface,
@@ -2662,8 +2707,10 @@ int32_t stickslip_interface_set_law_states(struct stickslip_interface *interface
 /// to the caller's arrays. Of a part of an interface (`owned`) they are what its own nodes give, to be added up like forces. In
 /// plane models they are of the thickness, in axisymmetric ones of the whole ring.
 ///
+/// Not with (UNSUPPORTED): an analytic mortar side; points that decide (STICKSLIP_DECISION_POINTS).
+///
 /// Errors: as `stickslip_interface_residual` without sums; INVALID_VALUE (a member of heat), NOT_FINITE (temperatures; a result that
-/// overflows), UNSUPPORTED (an analytic mortar side, which has no temperatures; points that decide what is closed).
+/// overflows), UNSUPPORTED.
 /// Cost: after a residual at the same point O(pairs); where surfaces are apart an integration. Allocates.
 int32_t stickslip_interface_heat(struct stickslip_interface *interface,
                                  const double *x1,
@@ -2687,8 +2734,10 @@ int32_t stickslip_interface_heat(struct stickslip_interface *interface,
 /// NULL only count is written, and capacity is not read. Entries of [F L/(T K)], [F/T], [L^3/T]. After NOT_FINITE because a value
 /// overflows, values mean nothing.
 ///
+/// Not with (UNSUPPORTED): normals of now (STICKSLIP_NORMALS_CURRENT).
+///
 /// Errors: those of `stickslip_interface_heat`, INDEX_OUT_OF_RANGE (an equation below the base), INVALID_VALUE (which), BUFFER_TOO_SMALL,
-/// UNSUPPORTED (columns of displacements with normals of now).
+/// UNSUPPORTED.
 /// Cost: as the heat; with all columns the derivatives of all weights, about twice a tangent of forces. Counting costs the same.
 /// Allocates.
 int32_t stickslip_interface_heat_tangent_coo(struct stickslip_interface *interface,

@@ -82,10 +82,15 @@ pub unsafe extern "C" fn stickslip_interface_carriers(
 /// from given multipliers: at the old positions, host1 being the residual there plus J du, J the host's matrix with
 /// STICKSLIP_CONDENSED_FORCES.
 ///
+/// Not with (UNSUPPORTED): standard multipliers (STICKSLIP_BASIS_STANDARD); points that decide (STICKSLIP_DECISION_POINTS);
+/// the augmented form (STICKSLIP_FORM_AUGMENTED); nodes that handles share (owned has STICKSLIP_NODE_SHARED); parts of an
+/// interface (owned has STICKSLIP_NODE_ELSEWHERE) and quadratic facets; parts of an interface (owned has
+/// STICKSLIP_NODE_ELSEWHERE) and lines.
+///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as
-/// `stickslip_interface_sums`); UNSUPPORTED: standard multipliers, the augmented form, a prescribed component (equation -1)
+/// `stickslip_interface_sums`); UNSUPPORTED too: a prescribed component (equation -1)
 /// of a node that has a multiplier there, two nodes with an equation in common (of which one has a multiplier), two
-/// components of one, shared nodes, quadratic facets or lines with nodes whose multipliers act elsewhere; and
+/// components of one; and
 /// a node that carries others and is not covered any more: within Newton's method take a smaller step.
 /// Cost: as `stickslip_interface_sums`, and a sort of the nodes.
 #[unsafe(no_mangle)]
@@ -198,8 +203,9 @@ pub unsafe extern "C" fn stickslip_interface_condensed_coo(
 /// x1, x2, lambda as there; n_rows, row_offsets, columns, values as for `stickslip_interface_tangent_csr`; only the rows of
 /// the interface's nodes are read and changed.
 ///
-/// Errors: as `stickslip_interface_condensed_multipliers`, UNSUPPORTED too where multipliers act elsewhere (take the pieces, which
-/// add up over the handles), NOT_FINITE (the result), INVALID_SIZE, INDEX_OUT_OF_RANGE, and
+/// Not with (UNSUPPORTED): parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE).
+///
+/// Errors: as `stickslip_interface_condensed_multipliers`, NOT_FINITE (the result), INVALID_SIZE, INDEX_OUT_OF_RANGE, and
 /// MISSING_ENTRY where the matrix lacks an entry (renew its pattern by `stickslip_interface_condensed_pattern`); then
 /// nothing was changed.
 /// Cost: as `stickslip_interface_tangent_csr`, and a sum of rows for each mortar node near a non-mortar one. Allocates.

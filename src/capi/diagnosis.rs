@@ -95,8 +95,8 @@ unsafe impl Sized64 for stickslip_diagnosis {
 /// filled; its numbers are written. Against an analytic mortar side there are no pairs.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE (text_capacity, suspect_capacity), INVALID_VALUE (state; as
-/// `stickslip_interface_sums`), NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, UNSUPPORTED (sums
-/// with weak_coverage).
+/// `stickslip_interface_sums`), NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, UNSUPPORTED (what sums do not go with:
+/// docs/compose.md).
 /// Cost: those of a tangent, and every pair integrated once more with the degree-10 rule; allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_diagnose(

@@ -123,8 +123,8 @@ unsafe impl Sized64 for stickslip_equilibrium {
 /// before the commit.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (modulus, least_traction; as
-/// `stickslip_interface_sums`), DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, UNSUPPORTED (sums with
-/// weak_coverage).
+/// `stickslip_interface_sums`), DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, UNSUPPORTED (what sums do not go with:
+/// docs/compose.md).
 /// Cost: as `stickslip_interface_states`; after a residual at the same positions no integration.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_equilibrium(

@@ -97,7 +97,8 @@ unsafe impl Sized64 for stickslip_states {
 /// step belongs to the past.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL,
-/// INVALID_VALUE (as `stickslip_interface_sums`), UNSUPPORTED (sums with weak_coverage).
+/// INVALID_VALUE (as `stickslip_interface_sums`), UNSUPPORTED (what sums do not go with:
+/// docs/compose.md).
 /// Cost: as `stickslip_interface_sums`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_states(
@@ -182,7 +183,8 @@ fn check(name: &str, mut values: impl Iterator<Item = f64>) -> Result<()> {
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL; within
 /// Newton treat them as a domain error and take a smaller step. INVALID_VALUE (as `stickslip_interface_sums`),
-/// UNSUPPORTED (sums with weak_coverage).
+/// UNSUPPORTED (what sums do not go with:
+/// docs/compose.md).
 /// Cost: as `stickslip_interface_sums`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_residual(

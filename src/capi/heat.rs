@@ -106,12 +106,15 @@ fn read_heat(p: *const stickslip_heat) -> Result<Conductance> {
 /// that do not match passes exactly. docs/formulation.md, 17.
 ///
 /// x1 (3 n1), x2 (3 n2), lambda (3 n1): as for `stickslip_interface_states`; before the commit, as there. heat: see there.
-/// temperatures1 (n1), temperatures2 (n2) [K], from any zero. Outputs: heat1 (n1), heat2 (n2) [F L/T]; nodes: NULL, or its members point
+/// temperatures1 (n1), temperatures2 (n2) [K], from any zero. An analytic mortar side has temperatures at the points of its frame: one value
+/// at all of them is a tool of one temperature, one equation for all of them a tool that stores heat. Outputs: heat1 (n1), heat2 (n2) [F L/T]; nodes: NULL, or its members point
 /// to the caller's arrays. Of a part of an interface (`owned`) they are what its own nodes give, to be added up like forces. In
 /// plane models they are of the thickness, in axisymmetric ones of the whole ring.
 ///
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS).
+///
 /// Errors: as `stickslip_interface_residual` without sums; INVALID_VALUE (a member of heat), NOT_FINITE (temperatures; a result that
-/// overflows), UNSUPPORTED (an analytic mortar side, which has no temperatures; points that decide what is closed).
+/// overflows), UNSUPPORTED.
 /// Cost: after a residual at the same point O(pairs); where surfaces are apart an integration. Allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_heat(
@@ -188,7 +191,7 @@ fn read_temperatures<'a>(
 /// overflows, values mean nothing.
 ///
 /// Errors: those of `stickslip_interface_heat`, INDEX_OUT_OF_RANGE (an equation below the base), INVALID_VALUE (which), BUFFER_TOO_SMALL,
-/// UNSUPPORTED (columns of displacements with normals of now).
+/// UNSUPPORTED.
 /// Cost: as the heat; with all columns the derivatives of all weights, about twice a tangent of forces. Counting costs the same.
 /// Allocates.
 #[unsafe(no_mangle)]

@@ -221,9 +221,10 @@ pub unsafe extern "C" fn stickslip_interface_set_previous(
 /// slip (3 n1) [L]: what `stickslip_interface_states` had after the commit; NULL: none. Interfaces that remember no slip
 /// (tied, rough, without friction) ignore it. What a law remembers becomes 0; `stickslip_interface_set_law_states` afterwards.
 ///
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS) and friction (STICKSLIP_FRICTION_COULOMB).
+///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (commits < 0, a
-/// mortar surface in layers, an analytic surface's frame), UNSUPPORTED (friction where points decide: what they remember is
-/// not in it).
+/// mortar surface in layers, an analytic surface's frame), UNSUPPORTED.
 /// Cost: one search and one integration; allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_set_committed(

@@ -22,7 +22,8 @@ pub const STICKSLIP_LAW_COHESION: i32 = 1;
 /// (mu - mu_after) p / critical_slip a unit of area snaps: no step is small enough then, but with inertia.
 pub const STICKSLIP_LAW_WEAKENING: i32 = 2;
 /// Orthotropic friction: mu along a direction, mu_across across it. Tractions stick within an ellipse, and slip goes at a right angle to
-/// its border. Not with STICKSLIP_NORMALS_CURRENT, and not with lines (UNSUPPORTED).
+/// its border.
+/// Not with (UNSUPPORTED): lines.
 pub const STICKSLIP_LAW_ORTHOTROPIC: i32 = 3;
 /// The most numbers a node that a law may remember.
 pub const STICKSLIP_LAW_MAX_STATES: i32 = 1024;
@@ -214,8 +215,10 @@ fn read_law(law: *const stickslip_law) -> Result<Option<Own>> {
 /// of which kind they are: set it again after a restart, before the import. A law of the same kind goes on with the states that
 /// there are, and its numbers may change from step to step; another one begins with states 0, and no commit before it can be undone.
 ///
-/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a number; an interface with another law), UNSUPPORTED (see the kinds;
-/// points that decide).
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS).
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a number; an interface with another law), UNSUPPORTED (see
+/// above and the kinds).
 /// That the direction has no part in the surface at a node is refused where the node is evaluated (INVALID_VALUE).
 /// Cost: nothing grows with the surface but the states; allocates them.
 #[unsafe(no_mangle)]

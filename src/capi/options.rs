@@ -18,12 +18,16 @@ use crate::quadrature::{DEGREE_1, DEGREE_2, DEGREE_4, DEGREE_5, DEGREE_6, DEGREE
 /// Forces use lambda, rows the projection; the tangent is a sum of pairs and nodes. Default.
 pub const STICKSLIP_FORM_MULTIPLIER: i32 = 0;
 /// Forces use the projected traction (the paper's form). Same solutions.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); condensation; the tangent by sums of several
+/// handles.
 pub const STICKSLIP_FORM_AUGMENTED: i32 = 1;
 /// P(g[n_n,x] - g[n_{n+1},x]): invariant under rigid motion within a step. Default.
 pub const STICKSLIP_SLIP_OBJECTIVE: i32 = 0;
 /// P(g[n_n,x] - g[n_n,x_n]).
 pub const STICKSLIP_SLIP_INCREMENT: i32 = 1;
 /// P g[n_n,x]: the paper's literal (12); drifts on curved interfaces.
+/// Not with (UNSUPPORTED): persistent weights (STICKSLIP_WEIGHTS_PERSISTENT); points that decide (STICKSLIP_DECISION_POINTS)
+/// and friction (STICKSLIP_FRICTION_COULOMB).
 pub const STICKSLIP_SLIP_PAPER: i32 = 2;
 /// Weights of the current configuration, linearised: large sliding. Default.
 pub const STICKSLIP_WEIGHTS_CURRENT: i32 = 0;
@@ -32,14 +36,16 @@ pub const STICKSLIP_WEIGHTS_COMMITTED: i32 = 1;
 /// Weights, normals and areas frozen at the first configuration: small displacements.
 pub const STICKSLIP_WEIGHTS_REFERENCE: i32 = 2;
 /// Weights frozen at the last commit, and what overlaps there counts as closed: a step need not part it. The work of the contact forces over a
-/// step is then never positive, whatever slides and turns: for dynamics. Not with offsets, STICKSLIP_DECISION_POINTS and
-/// STICKSLIP_SLIP_PAPER.
+/// step is then never positive, whatever slides and turns: for dynamics.
+/// Not with (UNSUPPORTED): the paper's slip measure (STICKSLIP_SLIP_PAPER); points that decide (STICKSLIP_DECISION_POINTS);
+/// offsets.
 pub const STICKSLIP_WEIGHTS_PERSISTENT: i32 = 3;
 /// Normals nu of the last commit, as in the paper: data of a step. Default.
 pub const STICKSLIP_NORMALS_COMMITTED: i32 = 0;
 /// Normals of the current configuration, linearised: the size of a step does not decide how accurate normals are, a surface may
-/// turn by any angle within it, and a step without load moves nothing. With STICKSLIP_WEIGHTS_CURRENT and averaged normals
-/// only; tied surfaces use no normals. Which facets look at each other follows the motion, too.
+/// turn by any angle within it, and a step without load moves nothing. Tied surfaces
+/// use no normals. Which facets look at each other follows the motion, too.
+/// Not with (UNSUPPORTED): frozen weights; points that decide (STICKSLIP_DECISION_POINTS); normals of the host.
 pub const STICKSLIP_NORMALS_CURRENT: i32 = 1;
 /// Coulomb friction with the coefficient mu (0 allowed). Default.
 pub const STICKSLIP_FRICTION_COULOMB: i32 = 0;
@@ -47,6 +53,7 @@ pub const STICKSLIP_FRICTION_COULOMB: i32 = 0;
 pub const STICKSLIP_FRICTION_NONE: i32 = 1;
 /// Mesh tying: a node that is covered in the first configuration keeps its place; weights of the reference. A gap at the
 /// start stays, and turns with the non-mortar facets; linear where there is none.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS).
 pub const STICKSLIP_FRICTION_TIED: i32 = 2;
 /// Opens and closes, never slips.
 pub const STICKSLIP_FRICTION_ROUGH: i32 = 3;
@@ -58,6 +65,8 @@ pub const STICKSLIP_MORTAR_DEFORMABLE: i32 = 0;
 pub const STICKSLIP_MORTAR_RIGID: i32 = 1;
 /// The mortar side is rigid and in closed form, STICKSLIP_SHAPE_...: no facets, no search. Its stickslip_surface has
 /// four nodes (of lines three), a frame that is fixed to it and that the host moves as a rigid body: see there.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); offsets of the mortar nodes; offsets that follow
+/// from a shape.
 pub const STICKSLIP_MORTAR_ANALYTIC: i32 = 2;
 /// A plane; of lines a straight line. Default.
 pub const STICKSLIP_SHAPE_PLANE: i32 = 0;
@@ -79,13 +88,16 @@ pub const STICKSLIP_SHORTCUT_APART: i32 = 4;
 /// all while the surfaces are apart: no law, row -lambda / r; the former's tangent block is its diagonal.
 pub const STICKSLIP_SHORTCUT_UNCOVERED: i32 = 8;
 /// Standard shape functions for the multiplier (the paper's). Default.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); condensation.
 pub const STICKSLIP_BASIS_STANDARD: i32 = 0;
 /// Dual functions, biorthogonal to the shape functions over what is covered of a facet: a node's force is its multiplier
 /// times its covered area, and tractions do not oscillate beside edges and on curved surfaces. The tangent couples the
 /// mortar nodes of all pairs of a facet. Neighbours carry weakly covered nodes unless weak_coverage says NONE. With
 /// STICKSLIP_INTEGRATION_ELEMENTS a facet whose covered points do not determine its multipliers is refused
 /// (DEGENERATE_FACET); STICKSLIP_INTEGRATION_HYBRID takes overlaps there from the next commit on. The stages
-/// have calls of their own for it. UNSUPPORTED in this version: sums of handles.
+/// have calls of their own for it.
+/// Not with (UNSUPPORTED): multipliers at all nodes of quadratic facets or lines (STICKSLIP_SPACE_SUB); sums of several
+/// handles.
 pub const STICKSLIP_BASIS_DUAL: i32 = 1;
 /// weak_coverage: every covered node has a multiplier of its own.
 pub const STICKSLIP_WEAK_COVERAGE_NONE: f64 = -1.0;
@@ -108,6 +120,7 @@ pub const STICKSLIP_INTEGRATION_SEGMENTS: i32 = 0;
 /// Over element_points x element_points points on each non-mortar facet, each where it falls on a mortar facet: no
 /// clipping. Functions with kinks at the mortar edges are integrated as if they were smooth: patch tests fail, however
 /// many points there are. The tangent is that of the sums; they jump where a point passes a mortar edge.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); quadratic facets; lines.
 pub const STICKSLIP_INTEGRATION_ELEMENTS: i32 = 1;
 /// As ELEMENTS; but as SEGMENTS for all pairs of a non-mortar facet of which a point or a corner was uncovered at the last
 /// commit. Patch tests fail.
@@ -118,16 +131,23 @@ pub const STICKSLIP_TANGENT_EXACT: i32 = 0;
 pub const STICKSLIP_TANGENT_FROZEN_WEIGHTS: i32 = 1;
 /// The tangent leaves out that facets' planes tilt: converges linearly too, and saves nothing; for comparisons with
 /// codes that do so. Exact against an analytic mortar side.
+/// Not with (UNSUPPORTED): lines.
 pub const STICKSLIP_TANGENT_FROZEN_NORMALS: i32 = 2;
 /// A node is closed or open. Default.
 pub const STICKSLIP_DECISION_NODES: i32 = 0;
 /// Each point of an overlap is closed or open (docs/formulation.md 16): the border of the contact lies inside facets. modulus is needed,
 /// and is E* of both bodies together: 1 / E* = (1 - nu1^2) / E1 + (1 - nu2^2) / E2, of a rigid one without its part. The answer depends
 /// on it, by what vanishes with the facets' size. An augmentation beside it takes the place of r = 0.9 E* / h_A alone; r is then part of the
-/// answer, too. With STICKSLIP_BASIS_DUAL, and STICKSLIP_FRICTION_NONE with STICKSLIP_WEIGHTS_CURRENT, COMMITTED or REFERENCE, or STICKSLIP_FRICTION_COULOMB with STICKSLIP_WEIGHTS_COMMITTED
-/// or REFERENCE, and not with STICKSLIP_SLIP_PAPER. UNSUPPORTED: all others of these; laws of one's own; STICKSLIP_NORMALS_CURRENT; offsets with STICKSLIP_WEIGHTS_CURRENT;
-/// STICKSLIP_FORM_AUGMENTED, STICKSLIP_INTEGRATION_ELEMENTS and HYBRID, weak_coverage, quadratic facets, analytic mortar sides, sums of
-/// handles, parts (owned), condensed systems.
+/// answer, too.
+/// Not with (UNSUPPORTED): tied surfaces (STICKSLIP_FRICTION_TIED); a law that is not Coulomb's; friction
+/// (STICKSLIP_FRICTION_COULOMB) and weights of now (STICKSLIP_WEIGHTS_CURRENT); friction (STICKSLIP_FRICTION_COULOMB) and
+/// the paper's slip measure (STICKSLIP_SLIP_PAPER); standard multipliers (STICKSLIP_BASIS_STANDARD); persistent weights
+/// (STICKSLIP_WEIGHTS_PERSISTENT); normals of now (STICKSLIP_NORMALS_CURRENT); the augmented form
+/// (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (options.element_points); nodes that others carry
+/// (weak_coverage > 0, the default of dual multipliers); an analytic mortar side; facets with mid nodes; a law of one's own;
+/// offsets and weights of now (STICKSLIP_WEIGHTS_CURRENT); parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE); nodes
+/// that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes (stickslip_interface_set_committed) and friction
+/// (STICKSLIP_FRICTION_COULOMB); condensation; heat.
 pub const STICKSLIP_DECISION_POINTS: i32 = 1;
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
 pub const STICKSLIP_ROW_SCALE_FORCE: i32 = 0;
@@ -227,8 +247,8 @@ pub struct stickslip_options {
     pub multiplier_space: i32,
     /// STICKSLIP_MODEL_...: whether facets are of a model in space, or lines of a plane or axisymmetric one. With lines every array of
     /// vectors of this interface has two components a node in place of three: positions, forces, multipliers, normals,
-    /// directions; so have equations. The frame of an analytic mortar side has three points. Not with STICKSLIP_FORM_AUGMENTED,
-    /// STICKSLIP_NORMALS_CURRENT, STICKSLIP_TANGENT_FROZEN_NORMALS or element points (UNSUPPORTED).
+    /// directions; so have equations. The frame of an analytic mortar side has three points. What
+    /// lines do not go with: docs/compose.md.
     pub model: i32,
     /// Thickness of a plane model [L]; 0 (default): 1. 0 of other models.
     pub thickness: f64,

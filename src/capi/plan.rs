@@ -233,8 +233,8 @@ pub unsafe extern "C" fn stickslip_interface_plan_csr32(
 /// Units of an entry: its row's over its column's. After MISSING_ENTRY, OUT_OF_MEMORY and NOT_FINITE (a value overflows) they
 /// mean nothing; after any other error they are as they were.
 ///
-/// Errors: those of `stickslip_interface_residual`, INVALID_VALUE (there is no plan), BUFFER_TOO_SMALL, UNSUPPORTED (sums with
-/// the augmented form or weak_coverage), MISSING_ENTRY: the plan lacks an entry; make it again.
+/// Errors: those of `stickslip_interface_residual`, INVALID_VALUE (there is no plan), BUFFER_TOO_SMALL, UNSUPPORTED (what sums do not go with:
+/// docs/compose.md), MISSING_ENTRY: the plan lacks an entry; make it again.
 /// Cost: at new positions those of the residual, then the derivatives of every pair's weights (frozen weights: none), each
 /// block added at its place without a search. Allocates.
 #[unsafe(no_mangle)]

@@ -21,8 +21,7 @@ pub const STICKSLIP_NODE_ELSEWHERE: i32 = 2;
 /// One surface of an interface.
 ///
 /// An analytic mortar side (STICKSLIP_MORTAR_ANALYTIC) has n_nodes = 4 (of lines 3) and n_facets = 0; facet_offsets and facet_nodes
-/// are NULL; equations are NULL or all -1, or those of a frame that `stickslip_rigid_create` puts together (not with lines, quadratic
-/// facets, dual multipliers, the augmented form, weak_coverage, nor tied: UNSUPPORTED). Its nodes P0..P3 are a frame that is fixed to the surface and moves as a rigid
+/// are NULL; equations are NULL or all -1, or those of a frame that `stickslip_rigid_create` puts together. Its nodes P0..P3 are a frame that is fixed to the surface and moves as a rigid
 /// body, within 1e-8 of its lengths (INVALID_VALUE otherwise); to move the surface, move them. P0: a point of the
 /// plane, the sphere's centre, a point of the axis. P1 - P0: the plane's normal, out of its body, or the direction of
 /// the axis; of lines a point of the straight line and its normal, or the centre of the circle and any direction. The three edges

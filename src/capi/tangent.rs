@@ -167,7 +167,8 @@ pub(super) fn read_csr<'a>(base: i64, n_rows: i64, row_offsets: *const i64, colu
 /// they are as they were.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as the
-/// residual), BUFFER_TOO_SMALL, UNSUPPORTED (sums with the augmented form or weak_coverage).
+/// residual), BUFFER_TOO_SMALL, UNSUPPORTED (what sums do not go with:
+/// docs/compose.md).
 /// Cost: at new positions those of the residual, then the derivatives of every pair's weights (frozen weights:
 /// none), O(pairs); counting needs no derivatives. Allocates.
 #[unsafe(no_mangle)]
@@ -212,7 +213,8 @@ pub unsafe extern "C" fn stickslip_interface_tangent_coo(
 /// `stickslip_interface_plan_csr` and keeps the places.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as the
-/// residual), INVALID_SIZE, INDEX_OUT_OF_RANGE (an equation beyond n_rows), UNSUPPORTED (sums with the augmented form or weak_coverage),
+/// residual), INVALID_SIZE, INDEX_OUT_OF_RANGE (an equation beyond n_rows), UNSUPPORTED (what sums do not go with:
+/// docs/compose.md),
 /// and MISSING_ENTRY when the matrix lacks an entry (renew the pattern from
 /// `stickslip_interface_pattern_coo`); then nothing was added.
 /// Cost: as `stickslip_interface_tangent_coo`, and a search in a row for each entry, by bisection where the

@@ -2,6 +2,7 @@
 //! search tree. A host asks for residual and tangent of one point, and both need the same. Its memory serves all evaluations:
 //! what does not hold any more is room.
 
+use super::compose::Feature;
 use super::data::active::Active;
 use super::data::extent::{Extent, Scope};
 use super::data::history::History;
@@ -16,7 +17,6 @@ use super::pairing::given::{Given, Step, check_finite};
 use super::pairing::work::Work;
 use super::stages::acting::acting;
 use super::stages::apart::stays_apart;
-use super::stages::carried::refuse_sums;
 use super::stages::commit;
 use super::stages::normals::follow;
 use super::stages::respond::{Responses, respond};
@@ -280,7 +280,7 @@ impl<const N: usize> Cache<N> {
             Some(sums) => {
                 Given { setup, step }.check_positions(x.0, x.1)?;
                 check_length("sums", sums.len(), nodes)?;
-                refuse_sums(&setup.options)?;
+                setup.refuse(&[(Feature::Sums, true)])?;
                 self.integrate(setup, step, x, extent)?;
                 if matches!(setup.options.scheme, Scheme::Hybrid(_)) {
                     let given = Given { setup, step };

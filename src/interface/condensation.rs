@@ -1,9 +1,10 @@
 //! A system without multipliers through the handle: what a host multiplies and adds, in pieces or in place, and the
 //! multipliers back (docs/formulation.md 10.7).
 
+use super::compose::Feature;
 use super::condensed::elimination::{Elimination, Row, widened};
 use super::condensed::pattern::Columns;
-use super::condensed::refusal::{refuse, refuse_parts};
+use super::condensed::refusal::refuse;
 use super::condensed::rows::CondensedRows;
 use super::contact::Contact;
 use super::data::csr::Csr;
@@ -203,7 +204,7 @@ impl<const N: usize> Contact<N> {
         csr: Csr<'a>,
         value: &dyn Fn(usize) -> f64,
     ) -> Result<CondensedRows<'a>> {
-        refuse_parts(self.given())?;
+        self.setup.refuse(&[(Feature::InPlace, true)])?;
         let (elimination, lambda) = self.eliminated((x1, x2), lambda)?;
         let scales = elimination.scales()?;
         let (one, two) = self.setup.surfaces();
@@ -232,7 +233,7 @@ impl<const N: usize> Contact<N> {
     pub fn condensed_pattern(&mut self, x1: &[Vec3], x2: &[Vec3], csr: &Csr, sink: &mut dyn Sink) -> Result<()> {
         let given = self.given();
         given.check_positions(x1, x2)?;
-        refuse_parts(given)?;
+        given.setup.refuse(&[(Feature::InPlace, true)])?;
         refuse(given, &given.normals()?)?;
         let mut columns = Columns::of(&self.setup.nonmortar.equations, csr)?;
         let (mut forces, mut constraints) = (Noted::default(), Noted::default());

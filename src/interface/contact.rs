@@ -1,6 +1,7 @@
 //! The handle: it owns an interface's data and calls the stages on it.
 
 use super::cache::Cache;
+use super::compose::Feature;
 use super::data::counters::Counters;
 use super::data::effects::Effects;
 use super::data::extent::Extent;
@@ -157,10 +158,7 @@ impl<const N: usize> Contact<N> {
 
     /// Unit normals into the non-mortar body; `None` returns to the averaged ones. Not where the normals follow the motion.
     pub fn set_normals(&mut self, normals: Option<Vec<Vec3>>) -> Result<()> {
-        if normals.is_some() && self.setup.options.follows_normals() {
-            let text = "normals of the host with STICKSLIP_NORMALS_CURRENT: they would not follow the motion; take STICKSLIP_NORMALS_COMMITTED";
-            return Err(Error::new(Kind::Unsupported, text));
-        }
+        self.setup.refuse(&[(Feature::HostNormals, normals.is_some())])?;
         self.setup.nodes.set_normals(normals)?;
         self.cache.forget();
         Ok(())
@@ -187,10 +185,10 @@ impl<const N: usize> Contact<N> {
     /// nodes carry others: who carries them follows from what is covered farther away. Before the first step: t_n becomes the
     /// reference configuration.
     pub fn set_owners(&mut self, owners: Vec<Owner>) -> Result<()> {
-        if self.setup.decides_at_points() && owners.iter().any(|owner| *owner != Owner::Here) {
-            let text = "STICKSLIP_DECISION_POINTS with parts of an interface (owned): tractions of a facet need the gaps of all of its nodes; take STICKSLIP_DECISION_NODES";
-            return Err(Error::new(Kind::Unsupported, text));
-        }
+        self.setup.refuse(&[
+            (Feature::Elsewhere, owners.contains(&Owner::Elsewhere)),
+            (Feature::Shared, owners.contains(&Owner::Shared)),
+        ])?;
         self.setup.nodes.set_owners(owners)?;
         let Setup { nonmortar, nodes, options, .. } = &mut self.setup;
         let carries = options.effective_weak_coverage() > 0.0;
@@ -330,10 +328,7 @@ impl<const N: usize> Contact<N> {
     /// one was created with. No commit can then be undone.
     pub fn set_committed(&mut self, x1: &[Vec3], x2: &[Vec3], slip: &[Vec3], commits: i64) -> Result<()> {
         self.given().check_positions(x1, x2)?;
-        if self.setup.has_point_friction() {
-            let text = "STICKSLIP_DECISION_POINTS with friction and a history of nodes: what points remember is not in it; import one of points (stickslip_interface_history_import)";
-            return Err(Error::new(Kind::Unsupported, text));
-        }
+        self.setup.refuse(&[(Feature::NodeHistory, true), (Feature::Friction, N == 3)])?;
         check_length("slip", slip.len(), self.setup.nonmortar.len())?;
         check_finite("slip", slip)?;
         if commits < 0 {

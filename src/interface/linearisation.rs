@@ -1,9 +1,9 @@
 //! The tangent of an interface through its handle: entry by entry, or by a plan, which is made once and filled in every
 //! evaluation.
 
+use super::compose::Feature;
 use super::contact::Contact;
 use super::data::extent::Extent;
-use super::data::options::Form;
 use super::linear::{AtPoint, Here, Linear, PlanOf, PlanPairs, Positions, ThreadRoom, Work, no_plan};
 use super::pairing::given::Given;
 use super::plan::numbering::Sides;
@@ -15,7 +15,7 @@ use super::tangent::by_equations::{ByEquations, Sink};
 use super::tangent::emission::Takers;
 use super::tangent::task::Task;
 use super::tangent::union::{Pairs, possible_pairs};
-use crate::error::{Error, Kind, Result};
+use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::memory;
 use nalgebra::SVector;
@@ -239,12 +239,7 @@ impl<const N: usize> Contact<N> {
     }
 
     fn refuse_sums(&self, sums: Option<&[NodeSums]>) -> Result<()> {
-        if sums.is_some() && self.setup.options.form == Form::Augmented {
-            let text =
-                "sums with the augmented form: its tangent couples pairs of different handles; use the multiplier form";
-            return Err(Error::new(Kind::Unsupported, text));
-        }
-        Ok(())
+        sums.map_or(Ok(()), |_| self.setup.refuse(&[(Feature::SumsTangent, true)]))
     }
 
     /// The pairs that there may be near x.

@@ -10,6 +10,7 @@
 #[cfg(test)]
 mod by_hand;
 mod cache;
+pub mod compose;
 mod condensation;
 mod condensed;
 mod contact;

@@ -1,13 +1,14 @@
 //! Offsets of the nodes through the handle (docs/formulation.md 15), and what goes into them: nodes that are put onto the other
 //! surface, and facets that are given back their shape.
 
+use super::compose::Feature;
 use super::contact::Contact;
 use super::data::offsets;
 use super::data::options::Weights;
 use super::data::shape_offsets::shape_offsets;
 use super::inspect::adjust::{Adjusted, adjusted};
 use super::pairing::settle::Pairing;
-use crate::error::{Error, Kind, Result};
+use crate::error::Result;
 use crate::features;
 use crate::geometry::{AnalyticSurface, Vec3};
 use crate::memory;
@@ -17,21 +18,12 @@ impl<const N: usize> Contact<N> {
     /// open gaps wider than before, pairs may be deeper, and those of the step are sought anew.
     pub fn set_offsets(&mut self, [one, two]: [Option<Vec<f64>>; 2]) -> Result<()> {
         let mut offsets = [offsets::checked(&self.setup.nonmortar, one)?, offsets::checked(&self.setup.mortar, two)?];
-        if offsets.iter().any(|h| !h.is_empty()) {
+        let [_, of_mortar] = offsets.each_ref().map(|h| !h.is_empty());
+        let is_there = offsets.iter().any(|h| !h.is_empty());
+        if is_there {
             features::needs!(OFFSETS);
         }
-        let options = &self.setup.options;
-        if offsets.iter().any(|h| !h.is_empty())
-            && options.decides_at_points()
-            && options.effective_weights() == Weights::Current
-        {
-            let text = "offsets with STICKSLIP_DECISION_POINTS and weights of now: what they add to the gaps of points is not in the tangent; take STICKSLIP_WEIGHTS_COMMITTED or STICKSLIP_WEIGHTS_REFERENCE, or STICKSLIP_DECISION_NODES";
-            return Err(Error::new(Kind::Unsupported, text));
-        }
-        if options.keeps_overlaps() && offsets.iter().any(|h| !h.is_empty()) {
-            let text = "offsets with STICKSLIP_WEIGHTS_PERSISTENT: what they overlap by at the last commit would count as closed, and one that grows would press nothing; take other weights";
-            return Err(Error::new(Kind::Unsupported, text));
-        }
+        self.setup.refuse(&[(Feature::Offsets, is_there), (Feature::MortarOffsets, of_mortar)])?;
         let before = offsets::reach(self.setup.surfaces());
         self.swap_offsets(&mut offsets);
         if before != offsets::reach(self.setup.surfaces())

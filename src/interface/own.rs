@@ -1,5 +1,6 @@
 //! A law of one's own through the handle: what it is, and what it remembers (docs/formulation.md 4.8).
 
+use super::compose::Feature;
 use super::contact::Contact;
 use super::data::effects::Effects;
 use super::data::options::Friction;
@@ -20,16 +21,8 @@ impl Contact<3> {
             return Err(Error::new(Kind::InvalidValue, text));
         }
         own.as_ref().map_or(Ok(()), Own::validate)?;
-        if own.is_some() && options.decides_at_points() {
-            let text = "a law of one's own with STICKSLIP_DECISION_POINTS: it is asked at nodes; take STICKSLIP_DECISION_NODES";
-            return Err(Error::new(Kind::Unsupported, text));
-        }
-        if let Some(Own::Orthotropic(_)) = own {
-            if self.setup.nonmortar.lines().is_some() {
-                let text = "orthotropic friction with lines: a plane or axisymmetric model has one direction to slip in; give it its mu";
-                return Err(Error::new(Kind::Unsupported, text));
-            }
-        }
+        let is_orthotropic = matches!(own, Some(Own::Orthotropic(_)));
+        self.setup.refuse(&[(Feature::OwnLaw, own.is_some()), (Feature::Orthotropic, is_orthotropic)])?;
         let kind = |own: &Option<Own>| own.map(|own| (own.number(), own.states()));
         if kind(&own) != kind(&self.setup.own) {
             let n = self.setup.nonmortar.len() * own.map_or(0, |own| own.states());

@@ -1,5 +1,6 @@
 //! Heat through the handle (docs/formulation.md 17).
 
+use super::compose::Feature;
 use super::contact::Contact;
 use super::data::extent::Extent;
 use super::data::node_data::check_length;
@@ -36,7 +37,7 @@ impl<const N: usize> Contact<N> {
     /// What leaves the nodes at (x, lambda) and these temperatures.
     ///
     /// # Errors
-    /// Those of a residual; [`Kind::Unsupported`]: the mortar side is an analytic surface, which has no temperatures; points decide what is closed.
+    /// Those of a residual; [`Kind::Unsupported`]: points decide what is closed.
     pub fn heat(&mut self, x: [&[Vec3]; 2], lambda: &[SVector<f64, N>], t: Temperatures) -> Result<Heat> {
         let rows = self.heat_rows(x, lambda, t, false)?;
         let at = self.heat_place(x, t);
@@ -47,7 +48,7 @@ impl<const N: usize> Contact<N> {
     /// The derivatives of what leaves the nodes. With the columns of displacements and multipliers, or without.
     ///
     /// # Errors
-    /// Those of [`Contact::heat`]; [`Kind::Unsupported`]: columns of displacements with normals of now.
+    /// Those of [`Contact::heat`].
     pub fn heat_tangent(
         &mut self,
         x: [&[Vec3]; 2],
@@ -75,12 +76,8 @@ impl<const N: usize> Contact<N> {
         t: Temperatures,
         with_motion: bool,
     ) -> Result<Vec<Row>> {
+        self.setup.refuse(&[(Feature::Heat, true)])?;
         let (one, two) = self.setup.surfaces();
-        if self.setup.options.decides_at_points() {
-            let text =
-                "heat with STICKSLIP_DECISION_POINTS, where pressures are of points; take STICKSLIP_DECISION_NODES";
-            return Err(Error::new(Kind::Unsupported, text));
-        }
         for (name, values, needed) in
             [("temperatures1", t.sides[0], one.len()), ("temperatures2", t.sides[1], two.len())]
         {

@@ -490,7 +490,6 @@ REFUSED = {
     "a reference point beside the centre": ({**WITH_BRICK, "brick": {**BRICK, "reference": [0.5, 0.5, 5]}}, "brick.reference"),
     "a rigid body moved in part": ({**WITH_BRICK, "brick": BRICK, "supports": ["push"], "push": {"body": "brick", "components": ["x"], "value": [1, 0, 0]}}, "push.value"),
     "rho_inf of a free rigid body": ({**WITH_BRICK, "brick": BRICK, "dynamics": {"rho_inf": 0.9}}, "dynamics.rho_inf"),
-    "weights with offsets": ({"c": {"weights": "persistent", "offset": 0.1}}, "c.weights"),
 }
 
 
@@ -508,3 +507,7 @@ def refused(verdicts, driver):
             del scene["right"]["velocity"]
         done = run(driver, "refused_" + name.replace(" ", "_"), scene, expect=1)
         verdicts.true(f"refused, {name}", f"{key}:" in done.text and "PETSC ERROR" not in done.text, key)
+    scene = two_bars(n=2, count=1)
+    scene["c"] = {**scene["c"], "weights": "persistent", "offset": 0.1}
+    done = run(driver, "refused_offsets", scene, expect=3)
+    verdicts.true("refused, weights with offsets", "`weights: persistent`" in done.text and "offsets" in done.text, "the library's sentence")

@@ -302,7 +302,7 @@ REFUSALS = {
     "augmented": ({"form": "augmented"}, "augmented"),
     "elements": ({"integration": "elements"}, "overlaps"),
     "current normals": ({"weights": "current", "normals": "current"}, "normals of now"),
-    "standard basis": ({"basis": "standard"}, "standard basis"),
+    "standard basis": ({"basis": "standard"}, "standard multipliers"),
 }
 
 

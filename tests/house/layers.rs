@@ -89,7 +89,7 @@ fn only_the_abi_and_the_processors_instructions_are_unsafe() {
 const STAGES: [&str; 5] = ["integrate", "facet", "sums", "respond", "residual"];
 
 /// The rooms of `src/interface`, lowest first.
-const ROOMS: [&str; 8] = ["data", "pairing", "stages", "tangent", "heat", "plan", "condensed", "inspect"];
+const ROOMS: [&str; 9] = ["compose", "data", "pairing", "stages", "tangent", "heat", "plan", "condensed", "inspect"];
 
 /// Files that know the handle: itself, and those that give it to hosts.
 const KNOW_THE_HANDLE: [&str; 10] = [

@@ -30,6 +30,7 @@ const ROUNDING: f64 = 1e-13;
 const PATCH: f64 = 1e-12;
 
 const BASES: [MultiplierBasis; 2] = [MultiplierBasis::Standard, MultiplierBasis::Dual];
+const NORMALS: [Normals; 2] = [Normals::Committed, Normals::Current];
 
 /// Everything at once, and no gap of the scenes near where the reach ends. Where a thousandth of the pressure ends is wide against a
 /// step of the differences.
@@ -183,23 +184,23 @@ fn tangents_equal_differences_and_heat_is_conserved() {
 
 #[test]
 fn the_same_with_one_multiplier_carried_nodes_points_and_offsets() {
-    for basis in BASES {
+    for (basis, normals) in BASES.into_iter().flat_map(|basis| NORMALS.map(|normals| (basis, normals))) {
         for cells in [Cells::Quads, Cells::Triangles] {
-            let of = Options { basis, weak_coverage: weak::WEAK, rule: &DEGREE_10, ..options() };
-            let what = format!("{basis:?} {}", cells == Cells::Quads);
+            let of = Options { basis, normals, weak_coverage: weak::WEAK, rule: &DEGREE_10, ..options() };
+            let what = format!("{basis:?} {normals:?} {}", cells == Cells::Quads);
             let mut s = weak::scene::<1>(&Options { friction: Friction::None, mu: 0.0, ..of }, cells);
             Scene::new(&mut s.contact, [&s.x1, &s.x2], &s.lambda, (3, 1)).check(&ALL, &what);
             assert!(s.contact.counters().nodes.carried > 0);
             let mut s = weak::scene::<3>(&of, cells);
             Scene::new(&mut s.contact, [&s.x1, &s.x2], &s.lambda, (3, 3)).check(&ALL, &what);
-            let mut t = moved(&Options { basis, rule: &DEGREE_10, ..options() }, [cells, cells], FLAT, 3);
+            let mut t = moved(&Options { basis, normals, rule: &DEGREE_10, ..options() }, [cells, cells], FLAT, 3);
             let (n1, n2, mut random) = (t.x1.len(), t.x2.len(), Random(5));
             let mut some = |n: usize| Some((0..n).map(|_| 0.02 * random.next()).collect());
             t.interface.set_offsets([some(n1), some(n2)]).unwrap();
             Scene::new(&mut t.interface, [&t.x1, &t.x2], &t.lambda, (3, 3)).check(&ALL, &format!("{what} offsets"));
         }
         for scheme in [2, 5].map(|n| Scheme::Elements(stickslip::quadrature::cell::line_of(n).unwrap())) {
-            let of = Options { basis, scheme, weak_coverage: NO_WEAK_COVERAGE, ..options() };
+            let of = Options { basis, normals, scheme, weak_coverage: NO_WEAK_COVERAGE, ..options() };
             let mut t = moved(&of, [Cells::Quads, Cells::Quads], FLAT, 3);
             Scene::new(&mut t.interface, [&t.x1, &t.x2], &t.lambda, (3, 3)).check(&ALL, &format!("{basis:?} points"));
         }
@@ -212,7 +213,9 @@ fn the_same_of_quadratic_facets_and_of_lines() {
     let spaces = spaces.into_iter().chain([(MultiplierSpace::Corner, MultiplierBasis::Dual)]);
     for ((space, basis), friction) in spaces.flat_map(|s| [Friction::Coulomb, Friction::Tied].map(|f| (s, f))) {
         let weak_coverage = if basis == MultiplierBasis::Dual { 0.4 } else { NO_WEAK_COVERAGE };
-        let of = under(friction, 0.7, Options { space, basis, rule: &DEGREE_10, weak_coverage, ..options() });
+        let normals = NORMALS[usize::from(friction == Friction::Coulomb)];
+        let of = Options { space, basis, normals, rule: &DEGREE_10, weak_coverage, ..options() };
+        let of = under(friction, 0.7, of);
         for kinds in [[&[6][..], &[6][..]], [&[8], &[9]], [&[9], &[4]], [&[3], &[8]]] {
             for prescribed in [false, true] {
                 let mut s = moved_parents::<3>(&of, kinds, FLAT, 0.0, prescribed, 3);
@@ -390,18 +393,40 @@ fn parts_add_up_to_the_whole() {
     }
 }
 
+/// An analytic plane has the temperatures of its frame's points, as a meshed one those of its nodes.
+#[test]
+fn a_tool_in_closed_form_passes_what_a_meshed_one_does() {
+    let one = grid(2, 3, [0.0, 0.0], [1.0, 1.0], 0.01, false, Cells::Quads);
+    let two = grid(1, 1, [-0.5, -0.5], [1.5, 1.5], 0.0, true, Cells::Quads);
+    let frame = vec![Vec3::zeros(), Vec3::z(), Vec3::x(), Vec3::y()];
+    let lambda = vec![Vec3::zeros(); one.x.len()];
+    let t1: Vec<f64> = one.x.iter().map(|x| 300.0 + 7.0 * x.x * x.y).collect();
+    for (basis, slope) in BASES.into_iter().flat_map(|basis| [0.0, 5.0].map(|slope| (basis, slope))) {
+        let of = |x: &Vec3| 290.0 + slope * (x.x - 0.5 * x.y);
+        let nonmortar = Surface::new("nonmortar", one.x.clone(), &one.facets, numbered(0, one.x.len())).unwrap();
+        let plane = Surface::analytic("mortar", AnalyticShape::Plane, frame.clone()).unwrap();
+        let options = Options { basis, ..options() };
+        let multipliers = numbered(3 * one.x.len(), one.x.len());
+        let mut tool = Contact::<3>::create(nonmortar, plane, multipliers, options).unwrap();
+        let mut meshed: Interface = interface(&one, &two, options);
+        let heat = |c: &mut Contact<3>, x2: &[Vec3]| {
+            let t2: Vec<f64> = x2.iter().map(of).collect();
+            let t = Temperatures { sides: [&t1, &t2], conductance: &CONSTANT };
+            c.heat([&one.x, x2], &lambda, t).unwrap().sides
+        };
+        let (of_tool, of_mesh) = (heat(&mut tool, &frame), heat(&mut meshed, &two.x));
+        let scale = max_abs(of_mesh[0].iter().copied());
+        let error = max_abs(of_tool[0].iter().zip(&of_mesh[0]).map(|(a, b)| a - b));
+        let [total, expected] = [&of_tool[1], &of_mesh[1]].map(|q| q.iter().sum::<f64>());
+        assert!(error <= PATCH * scale, "{basis:?} {slope}: {error:e} of {scale:e}");
+        assert!((total - expected).abs() <= PATCH * expected.abs(), "{basis:?} {slope}: {total} for {expected}");
+    }
+}
+
 #[test]
 fn what_has_no_heat_is_refused() {
     let one = grid(2, 2, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
-    let frame = vec![Vec3::zeros(), Vec3::z(), Vec3::x(), Vec3::y()];
-    let plane = Surface::analytic("mortar", AnalyticShape::Plane, frame.clone()).unwrap();
-    let nonmortar = Surface::new("nonmortar", one.x.clone(), &one.facets, numbered(0, one.x.len())).unwrap();
-    let mut c = Contact::<3>::create(nonmortar, plane, numbered(3 * one.x.len(), one.x.len()), options()).unwrap();
-    let lambda = vec![Vec3::zeros(); one.x.len()];
-    let (t1, t2) = (vec![0.0; one.x.len()], vec![0.0; 4]);
-    let t = Temperatures { sides: [&t1, &t2], conductance: &CONSTANT };
-    assert_eq!(c.heat([&one.x, &frame], &lambda, t).unwrap_err().kind, Kind::Unsupported);
-
+    let (lambda, t1) = (vec![Vec3::zeros(); one.x.len()], vec![0.0; one.x.len()]);
     let two = grid(2, 2, [0.0, 0.0], [1.0, 1.0], 0.0, true, Cells::Quads);
     let points = Options {
         decision: Decision::Points(100.0),
@@ -416,15 +441,11 @@ fn what_has_no_heat_is_refused() {
     let (zeros, t2) = (vec![SVector::zeros(); one.x.len()], vec![0.0; two.x.len()]);
     let at_points = Temperatures { sides: [&t1, &t2], conductance: &CONSTANT };
     assert_eq!(c.heat([&one.x, &two.x], &zeros, at_points).unwrap_err().kind, Kind::Unsupported);
-    let mut c: Interface = interface(&one, &two, Options { normals: Normals::Current, ..options() });
+    let mut c: Interface = interface(&one, &two, options());
     let t2 = vec![0.0; two.x.len()];
     let t = Temperatures { sides: [&t1, &t2], conductance: &CONSTANT };
-    let (x, none) = ([&one.x[..], &two.x[..]], vec![NO_EQUATION; one.x.len()]);
+    let x = [&one.x[..], &two.x[..]];
     assert!(c.heat(x, &lambda, t).is_ok());
-    let mut sink = |_: i64, _: i64, _: f64| ();
-    assert!(c.heat_tangent(x, &lambda, t, ([&none, &none], false), &mut sink).is_ok());
-    let refused = c.heat_tangent(x, &lambda, t, ([&none, &none], true), &mut sink).unwrap_err();
-    assert_eq!(refused.kind, Kind::Unsupported);
     let short = Temperatures { sides: [&t1[1..], &t2], conductance: &CONSTANT };
     assert_eq!(c.heat(x, &lambda, short).unwrap_err().kind, Kind::InvalidSize);
     let bad = vec![f64::NAN; one.x.len()];

@@ -4,9 +4,7 @@ use crate::support::lines::*;
 use crate::support::max_abs;
 use crate::support::mesh::*;
 use stickslip::geometry::Vec3;
-use stickslip::interface::{
-    Form, Friction, Interface, MultiplierBasis, Normals, Options, Stiffness, Surface, Tangent, Weights,
-};
+use stickslip::interface::{Friction, Interface, MultiplierBasis, Options, Stiffness, Surface, Tangent, Weights};
 use stickslip::law::State;
 use stickslip::line::Measure;
 use stickslip::mortar::MultiplierSpace;
@@ -316,12 +314,10 @@ fn what_lines_do_not_take_is_refused() {
     let plane = Measure::Thickness(1.0);
     let sides = || [of(&one, "nonmortar", plane), of(&two, "mortar", plane)];
     for (options, name) in [
-        (Options { form: Form::Augmented, ..options() }, "augmented form with lines"),
-        (Options { normals: Normals::Current, ..options() }, "normals of now with lines"),
-        (Options { tangent: Tangent::FrozenNormals, ..options() }, "FROZEN_NORMALS with lines"),
+        (Options { tangent: Tangent::FrozenNormals, ..options() }, "FROZEN_NORMALS) with lines"),
         (
             Options { basis: MultiplierBasis::Dual, space: MultiplierSpace::Sub, ..options() },
-            "dual multipliers at all nodes",
+            "multipliers at all nodes",
         ),
     ] {
         let text = refusal(options, sides());

@@ -7,6 +7,7 @@ mod analytic;
 mod boundary;
 mod closing;
 mod commits;
+mod compose;
 mod condensed;
 mod crease;
 mod crosspoints;

@@ -152,7 +152,7 @@ fn what_parts_cannot_condense_is_refused() {
     owners[2] = Owner::Shared;
     contact.set_owners(owners.clone()).unwrap();
     let refused = contact.condensed_multipliers(&one.x, &two.x, &host).unwrap_err();
-    assert!(refused.kind == Kind::Unsupported && refused.message.contains("node 2 is shared"), "{refused}");
+    assert!(refused.kind == Kind::Unsupported && refused.message.contains("nodes that handles share"), "{refused}");
     owners[2] = Owner::Elsewhere;
     contact.set_owners(owners).unwrap();
     assert!(contact.condensed_multipliers(&one.x, &two.x, &host).is_ok());

@@ -150,9 +150,6 @@ static const PetscReal TURN_TOLD = 0.03;
 /* Default of `lag_max`: what a mesh shows of a contact's force. */
 static const PetscReal LAG_MAX = 0.1;
 
-/* Keys by which surfaces are beside their meshes: with persistent weights an overlap by them would count as closed. */
-static const char *const OFFSETS[] = {"offset", "offset_at", "round"};
-
 /* `basis`, `normals`, `weights`, `slip`, `form`, `new_contact`, the augmentation and the search. */
 static void read_method(Scene *scene, Interface *interface)
 {
@@ -185,11 +182,6 @@ static void read_method(Scene *scene, Interface *interface)
   scene_choice(scene, name, "basis", bases, &basis);
   scene_choice(scene, name, "normals", normals, &normal);
   scene_choice(scene, name, "weights", weights, &weight);
-  for (size_t k = 0; k < sizeof(OFFSETS) / sizeof(OFFSETS[0]) && weight == STICKSLIP_WEIGHTS_PERSISTENT; k++) {
-    if (scene_has(scene, name, OFFSETS[k]))
-      scene_fail(scene, name, "weights", "persistent ones take what overlaps at a step's start for closed, and `%s` would press nothing: choose others.",
-                 OFFSETS[k]);
-  }
   scene_choice(scene, name, "new_contact", new_contacts, &new_contact);
   scene_choice(scene, name, "row_scale", row_scales, &row_scale);
   scene_bool(scene, name, "initial_contact", &interface->initial_contact);

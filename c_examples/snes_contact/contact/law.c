@@ -34,8 +34,6 @@ static void read_own(Scene *scene, const Space *space, Interface *interface, Pet
     if (scene_has(scene, name, "direction")) scene_fail(scene, name, "direction", "the law '%s' has none.", law);
     return;
   }
-  if (space_dimension(space) == 2)
-    scene_fail(scene, name, "law", "a plane or axisymmetric model slips in one direction; give it `friction` alone.");
   if (!space_vector(scene, space, name, "direction", own->direction))
     scene_fail(scene, name, "direction", "this key is missing: along it `friction` counts.");
 }

@@ -1,11 +1,10 @@
 //! What cannot be condensed, by name: multipliers are eliminated with the rows of their nodes, which must be there and serve
 //! one multiplier each.
 
-use crate::error::{Error, Kind, Result, Text};
+use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
+use crate::interface::compose::Feature;
 use crate::interface::data::multiplier::direction;
-use crate::interface::data::node_data::Owner;
-use crate::interface::data::options::{Form, MultiplierBasis};
 use crate::interface::data::surface::NO_EQUATION;
 use crate::interface::pairing::given::Given;
 use crate::memory::{self, Store};
@@ -15,50 +14,10 @@ const NO_COMPONENT: f64 = 1e-8;
 
 /// Refuses an interface whose multipliers cannot be eliminated. O(n log n) in the nodes.
 pub fn refuse<const N: usize>(given: Given<N>, normals: &[Vec3]) -> Result<()> {
-    let (setup, refuse) = (given.setup, |text: Text| Err(Error::new(Kind::Unsupported, text)));
-    if setup.options.basis != MultiplierBasis::Dual {
-        let text = "condensation with standard multipliers: their forces couple neighbours; take the dual basis (STICKSLIP_BASIS_DUAL)";
-        return refuse(text.into());
-    }
-    if setup.decides_at_points() {
-        let text = "condensation where points decide: a facet's mass matrix couples its multipliers; keep them as unknowns, or take STICKSLIP_DECISION_NODES";
-        return refuse(text.into());
-    }
-    if setup.options.form != Form::Multiplier {
-        let text = "condensation with the augmented form: its forces do not determine the multipliers of open nodes; take the multiplier form";
-        return refuse(text.into());
-    }
-    if let Some(a) = setup.nodes.owners.iter().position(|owner| *owner == Owner::Shared) {
-        let text = text!(
-            "condensation where non-mortar node {a} is shared: all facets around a node must be known to one handle, which owns it, and to others its multiplier acts elsewhere"
-        );
-        return refuse(text);
-    }
-    if let Some(a) =
-        setup.nodes.owners.iter().position(|owner| *owner == Owner::Elsewhere).filter(|_| setup.has_parents())
-    {
-        let text = text!(
-            "condensation of quadratic facets and lines where the multiplier of non-mortar node {a} acts elsewhere: several multipliers act on a node in the middle, and one handle must have them all"
-        );
-        return refuse(text);
-    }
+    given.setup.refuse(&[(Feature::Condensed, true)])?;
     refuse_hanging(given)?;
     refuse_prescribed(given, normals)?;
     refuse_shared(given)
-}
-
-/// Refuses parts of an interface where a host's matrix is to be changed in place: a row of it belongs to one part, and what the
-/// others add to it is known to them alone.
-pub fn refuse_parts<const N: usize>(given: Given<N>) -> Result<()> {
-    match given.setup.nodes.owners.iter().position(|owner| *owner != Owner::Here) {
-        None => Ok(()),
-        Some(a) => Err(Error::new(
-            Kind::Unsupported,
-            text!(
-                "a matrix condensed in place where the multiplier of non-mortar node {a} acts elsewhere; take the pieces (stickslip_interface_condensed_coo), which add up over the handles"
-            ),
-        )),
-    }
 }
 
 /// A mid node of one facet that is another's corner: the hats of the first one's corners would meet its multiplier.

@@ -29,3 +29,4 @@ pub mod restart;
 pub mod setup;
 pub mod shape_offsets;
 pub mod surface;
+pub mod what;

@@ -18,10 +18,6 @@ pub fn checked(surface: &Surface, offsets: Option<Vec<f64>>) -> Result<Vec<f64>>
     if offsets.iter().all(|h| *h == 0.0) {
         return Ok(Vec::new());
     }
-    if surface.analytic.is_some() {
-        let text = "offsets of an analytic mortar surface: it has no nodes; give them to the non-mortar nodes, or move or resize the shape";
-        return Err(Error::new(Kind::Unsupported, text));
-    }
     Ok(offsets)
 }
 

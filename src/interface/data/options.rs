@@ -2,6 +2,7 @@
 
 use crate::error::{Error, Kind, Result};
 use crate::features;
+use crate::interface::compose::{self, Feature, Features};
 pub use crate::law::Friction;
 use crate::law::SlipMeasure;
 use crate::mortar::MultiplierSpace;
@@ -273,23 +274,12 @@ impl Options {
         if !(self.turn_max > 0.0 && self.turn_max <= PI) {
             return refuse("turn_max", self.turn_max, "positive and at most pi");
         }
-        if self.follows_normals() && self.weights != Weights::Current {
-            let text = "normals of now with frozen weights: gaps and normals would be of different configurations; take STICKSLIP_WEIGHTS_CURRENT or STICKSLIP_NORMALS_COMMITTED";
-            return Err(Error::new(Kind::Unsupported, text));
-        }
-        if self.keeps_overlaps() && self.slip == SlipMeasure::Paper {
-            let text = "STICKSLIP_SLIP_PAPER with STICKSLIP_WEIGHTS_PERSISTENT: the work of friction would not be that of its slip; take STICKSLIP_SLIP_OBJECTIVE or STICKSLIP_SLIP_INCREMENT";
-            return Err(Error::new(Kind::Unsupported, text));
-        }
         if self.decision != Decision::Nodes {
             features::needs!(POINTS);
         }
-        if let Some(text) = self.beyond_points() {
-            return Err(Error::new(Kind::Unsupported, text));
-        }
         match self.search_distance {
             Some(d) if !(d > 0.0 && d.is_finite()) => refuse("search_distance", d, "positive and finite"),
-            _ => Ok(()),
+            _ => compose::refuse(self.features()),
         }
     }
 
@@ -299,43 +289,28 @@ impl Options {
         features::POINTS.built && self.decision != Decision::Nodes
     }
 
-    /// What deciding at points does not go with, if there is any of it.
-    fn beyond_points(&self) -> Option<&'static str> {
-        if !self.decides_at_points() {
-            None
-        } else if !matches!(self.friction, Friction::None | Friction::Coulomb) {
-            Some(
-                "STICKSLIP_DECISION_POINTS with a law that is not Coulomb's, or tied; take STICKSLIP_FRICTION_COULOMB or STICKSLIP_FRICTION_NONE, or STICKSLIP_DECISION_NODES",
-            )
-        } else if self.friction == Friction::Coulomb && self.weights == Weights::Current {
-            Some(
-                "STICKSLIP_DECISION_POINTS with friction and weights of now: points remember a traction, and are the same within a step with frozen weights alone; take STICKSLIP_WEIGHTS_COMMITTED or STICKSLIP_WEIGHTS_REFERENCE, or STICKSLIP_DECISION_NODES",
-            )
-        } else if self.friction == Friction::Coulomb && self.slip == SlipMeasure::Paper {
-            Some(
-                "STICKSLIP_DECISION_POINTS with friction and the paper's slip measure: points remember what slipped before, and need the slip of a step; take STICKSLIP_SLIP_OBJECTIVE or STICKSLIP_SLIP_INCREMENT",
-            )
-        } else if self.basis != MultiplierBasis::Dual {
-            Some(
-                "STICKSLIP_DECISION_POINTS with the standard basis: gaps are measured by dual functions; take STICKSLIP_BASIS_DUAL",
-            )
-        } else if self.weights == Weights::Persistent {
-            Some(
-                "STICKSLIP_DECISION_POINTS with STICKSLIP_WEIGHTS_PERSISTENT: overlaps are kept node by node; take STICKSLIP_WEIGHTS_COMMITTED or STICKSLIP_WEIGHTS_REFERENCE, or STICKSLIP_DECISION_NODES",
-            )
-        } else if self.follows_normals() {
-            Some(
-                "STICKSLIP_DECISION_POINTS with normals of now; take STICKSLIP_NORMALS_COMMITTED, or STICKSLIP_DECISION_NODES",
-            )
-        } else if self.form == Form::Augmented {
-            Some("STICKSLIP_DECISION_POINTS with the augmented form; take STICKSLIP_FORM_MULTIPLIER")
-        } else if self.scheme != Scheme::Segments {
-            Some("STICKSLIP_DECISION_POINTS with points that stand for overlaps; take STICKSLIP_INTEGRATION_SEGMENTS")
-        } else if self.weak_coverage > 0.0 {
-            Some("STICKSLIP_DECISION_POINTS with weak_coverage: no node has to be carried; leave it 0")
-        } else {
-            None
-        }
+    /// What is chosen here that does not go with everything.
+    #[inline(never)]
+    pub fn features(&self) -> Features {
+        let (law, is_now) = (self.friction.law(), self.effective_weights() == Weights::Current);
+        let is_known = matches!(self.friction, Friction::None | Friction::Coulomb);
+        Features::which(&[
+            (Feature::StandardBasis, self.basis == MultiplierBasis::Standard),
+            (Feature::DualBasis, self.basis == MultiplierBasis::Dual),
+            (Feature::Augmented, self.form == Form::Augmented),
+            (Feature::NormalsNow, self.follows_normals()),
+            (Feature::WeightsNow, is_now),
+            (Feature::FrozenWeights, !is_now),
+            (Feature::KeptOverlaps, self.keeps_overlaps()),
+            (Feature::PaperSlip, self.slip == SlipMeasure::Paper),
+            (Feature::Friction, self.friction == Friction::Coulomb),
+            (Feature::OtherLaw, law.opens && !is_known),
+            (Feature::Tied, !law.opens),
+            (Feature::Points, self.decides_at_points()),
+            (Feature::ElementPoints, self.scheme != Scheme::Segments),
+            (Feature::FrozenNormals, self.tangent == Tangent::FrozenNormals),
+            (Feature::Carried, self.weak_coverage > 0.0 || self.effective_weak_coverage() > 0.0),
+        ])
     }
 
     /// The weights in force: tied surfaces keep those of the reference configuration.

@@ -4,13 +4,15 @@
 use super::crease;
 use super::effects::Effects;
 use super::frame::check_frame;
-use super::node_data::NodeData;
+use super::node_data::{NodeData, Owner};
 use super::numbering;
 use super::offsets;
-use super::options::{MortarSide, MultiplierBasis, Options, Scheme, Tangent, Weights};
+use super::options::{MortarSide, Options, Weights};
 use super::parents::Parents;
 use super::surface::{NO_EQUATION, Surface, frames};
-use crate::error::{Error, Kind, Result, Text};
+use super::what;
+use crate::error::{Error, Kind, Result};
+use crate::interface::compose::{self, Feature, Features};
 use crate::law::Own;
 use crate::memory;
 use crate::mortar::MultiplierSpace;
@@ -75,11 +77,10 @@ impl<const N: usize> Setup<N> {
             frames(&mortar, &mortar.reference)?;
         }
         check_frame(&nonmortar, &mortar)?;
-        put_parents([&mut nonmortar, &mut mortar], &multiplier_equations, &options)?;
+        let of_surfaces = what::of_surfaces([&nonmortar, &mortar], options.space);
+        compose::refuse(options.features().and(of_surfaces))?;
+        put_parents([&mut nonmortar, &mut mortar], &multiplier_equations, options.space)?;
         let nodes = NodeData::new(&multiplier_equations, mu)?;
-        if options.decides_at_points() {
-            check_points([&nonmortar, &mortar])?;
-        }
         let wanted = options.decides_at_points() || options.weights != Weights::Current;
         let size_factors = if wanted { size_factors(&nonmortar, options.space)? } else { Vec::new() };
         let copies = crease::copies(&nonmortar)?;
@@ -89,6 +90,28 @@ impl<const N: usize> Setup<N> {
     /// The non-mortar and the mortar surface.
     pub fn surfaces(&self) -> (&Surface, &Surface) {
         (&self.nonmortar, &self.mortar)
+    }
+
+    /// What it has that does not go with everything.
+    #[inline(never)]
+    pub fn features(&self) -> Features {
+        self.options.features().and(what::of_surfaces([&self.nonmortar, &self.mortar], self.options.space)).and(
+            Features::which(&[
+                (Feature::OwnLaw, self.own.is_some()),
+                (Feature::Orthotropic, matches!(self.own, Some(Own::Orthotropic(_)))),
+                (Feature::HostNormals, self.nodes.normals.is_some()),
+                (Feature::Offsets, offsets::are_there(self.surfaces())),
+                (Feature::MortarOffsets, !self.mortar.offsets.is_empty()),
+                (Feature::Elsewhere, self.nodes.owners.contains(&Owner::Elsewhere)),
+                (Feature::Shared, self.nodes.owners.contains(&Owner::Shared)),
+            ]),
+        )
+    }
+
+    /// Refuses those of the list that are there, where they do not go with what it has.
+    #[inline(never)]
+    pub fn refuse(&self, list: &[(Feature, bool)]) -> Result<()> {
+        compose::refuse(self.features().and(Features::which(list)))
     }
 
     /// Whether either side has quadratic facets: gaps and forces are those of parents then.
@@ -118,7 +141,7 @@ impl<const N: usize> Setup<N> {
 
     /// Whether the frame of an analytic surface has equations.
     pub fn frame_moves(&self) -> bool {
-        frame_moves(&self.mortar)
+        what::frame_moves(&self.mortar)
     }
 
     /// Whether the mortar side has rows and columns: its nodes, or the points of its frame.
@@ -130,33 +153,6 @@ impl<const N: usize> Setup<N> {
     pub fn has_multiplier(&self, a: usize) -> bool {
         self.multiplier_equations[a].iter().any(|&e| e != NO_EQUATION)
     }
-}
-
-fn frame_moves(mortar: &Surface) -> bool {
-    mortar.analytic.is_some() && mortar.equations.iter().flatten().any(|&e| e != NO_EQUATION)
-}
-
-/// Refuses surfaces on which points do not decide.
-fn check_points([nonmortar, mortar]: [&Surface; 2]) -> Result<()> {
-    let refuse = |what: &str| {
-        Err(Error::new(
-            Kind::Unsupported,
-            text!("STICKSLIP_DECISION_POINTS with {what}; take STICKSLIP_DECISION_NODES"),
-        ))
-    };
-    if mortar.analytic.is_some() {
-        return refuse("an analytic mortar side");
-    }
-    let has_lines = nonmortar.lines().is_some();
-    if (nonmortar.parents.is_some() || mortar.parents.is_some()) && !has_lines {
-        return refuse("quadratic facets");
-    }
-    let side =
-        |side: &Surface| (0..side.host_facets()).all(|f| side.host_nodes(f).len() <= if has_lines { 2 } else { 4 });
-    if !side(nonmortar) || !side(mortar) {
-        return refuse("lines of three nodes");
-    }
-    Ok(())
 }
 
 /// A node on an edge has fewer facets, and less area, than one within. A quarter of each square, a sixth of twice each triangle's area and
@@ -219,33 +215,20 @@ fn put_width([one, two]: [&mut Surface; 2]) -> Result<()> {
 fn put_parents<const N: usize>(
     sides: [&mut Surface; 2],
     multiplier_equations: &[[i64; N]],
-    options: &Options,
+    space: MultiplierSpace,
 ) -> Result<()> {
     if sides.iter().all(|side| side.parents.is_none()) {
         return Ok(());
     }
     let [nonmortar, mortar] = sides;
-    let (kind, has_lines) = if nonmortar.lines().is_some() { ("lines", true) } else { ("quadratic facets", false) };
-    let unsupported = |text: Text| Err(Error::new(Kind::Unsupported, text));
-    if !matches!(options.scheme, Scheme::Segments) {
-        return unsupported(text!("options.element_points with {kind}: they are integrated over overlaps; leave it 0"));
-    }
-    if has_lines && options.tangent == Tangent::FrozenNormals {
-        return unsupported("STICKSLIP_TANGENT_FROZEN_NORMALS with lines; take the exact tangent".into());
-    }
-    let is_quadratic = nonmortar.parents.is_some();
-    if is_quadratic && options.basis == MultiplierBasis::Dual && options.space == MultiplierSpace::Sub {
-        return unsupported(text!(
-            "dual multipliers at all nodes of quadratic facets or lines: their areas would not be positive; take STICKSLIP_SPACE_CORNER, or the standard basis"
-        ));
-    }
+    let kind = if nonmortar.lines().is_some() { "lines" } else { "quadratic facets" };
     for side in [&mut *nonmortar, &mut *mortar] {
         if side.parents.is_none() {
             side.parents = Some(Parents::of_linear(&side.facets)?);
         }
     }
     let Some(parents) = &mut nonmortar.parents else { return Ok(()) };
-    parents.put(options.space)?;
+    parents.put(space)?;
     let has_row = &parents.has_row;
     let numbered = |a: &usize| !has_row[*a] && multiplier_equations[*a].iter().any(|&e| e != NO_EQUATION);
     match (0..has_row.len()).find(numbered) {

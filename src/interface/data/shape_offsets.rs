@@ -6,6 +6,7 @@
 use super::surface::Surface;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{AnalyticSurface, Vec3};
+use crate::interface::compose::{self, Feature, Features};
 use crate::memory::{self, Stored};
 use crate::normal::nodal_normal;
 use crate::quadrature::cell::{line_of, square_point, triangle_point};
@@ -25,15 +26,12 @@ const LEAST_COSINE: f64 = 0.5;
 /// [`Kind::InvalidValue`] where a node is farther from the shape than the longest facet is long, or a facet looks into its body.
 pub fn shape_offsets(surface: &Surface, shape: &AnalyticSurface) -> Result<Vec<f64>> {
     let side = surface.side;
-    let unsupported = |text| Err(Error::new(Kind::Unsupported, text));
-    if surface.analytic.is_some() {
-        return unsupported(text!("offsets of a shape for an analytic {side} surface: it is one"));
-    }
+    compose::refuse(Features::which(&[
+        (Feature::ShapeOffsets, true),
+        (Feature::Analytic, surface.analytic.is_some()),
+        (Feature::MidNodes, surface.has_mid_nodes()),
+    ]))?;
     let (n, lines) = (surface.len(), surface.lines().is_some());
-    let corners = |f: &super::facet_nodes::ParentNodes| if lines { 2 } else { f.parent.cell.n };
-    if surface.parents.as_ref().is_some_and(|p| p.facets.iter().any(|f| f.parent.n > corners(f))) {
-        return unsupported(text!("offsets of a shape for {side} facets with mid nodes: put these on the shape"));
-    }
     let far = |x: &Vec3| shape.distance(x - shape.origin).abs() > FARTHEST * surface.longest_edge;
     if let Some(k) = surface.reference.iter().position(far) {
         let text = text!(

@@ -12,9 +12,8 @@
 use super::node::node;
 use super::own::OwnAnswers;
 use super::sums::NodeSums;
-use crate::error::{Error, Kind, Result};
+use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
-use crate::interface::data::options::{MultiplierBasis, Options};
 use crate::interface::pairing::given::Given;
 use crate::law::NodeResponse;
 use crate::memory::{self, Store, Stored};
@@ -34,19 +33,6 @@ pub fn find_carried<const N: usize>(given: Given<N>, sums: &[NodeSums], all: &mu
     all.clear();
     let nodes = if given.step.pairing.carriers.is_empty() { 0 } else { sums.len() };
     all.store_all((0..nodes).map(carried))
-}
-
-/// Sums of several handles: a node's carriers, and all pairs of a facet, would have to be known to all of them.
-pub fn refuse_sums(options: &Options) -> Result<()> {
-    if options.basis == MultiplierBasis::Dual {
-        let text = "sums with the dual multiplier basis: it depends on all pairs of a facet, which are known within one handle only; take the standard one";
-        return Err(Error::new(Kind::Unsupported, text));
-    }
-    if options.effective_weak_coverage() > 0.0 {
-        let text = "sums with weak_coverage > 0: weakly covered nodes are carried within one handle only; give STICKSLIP_WEAK_COVERAGE_NONE";
-        return Err(Error::new(Kind::Unsupported, text));
-    }
-    Ok(())
 }
 
 /// T_AB.

@@ -143,7 +143,7 @@ fn the_frame_moves_the_surface() {
 #[test]
 fn wrong_inputs_are_refused_by_name() {
     type Spoil = fn(&mut Input);
-    let refusals: [(Spoil, i32, &str); 17] = [
+    let refusals: [(Spoil, i32, &str); 16] = [
         (|i| i.options.shape = 3, STICKSLIP_INVALID_VALUE, "options.shape is 3"),
         (|i| i.options.shape = -1, STICKSLIP_INVALID_VALUE, "options.shape is -1"),
         (|i| i.options.radius = 0.0, STICKSLIP_INVALID_VALUE, "options.radius is 0"),
@@ -163,14 +163,6 @@ fn wrong_inputs_are_refused_by_name() {
         (|i| i.two.coordinates = null(), STICKSLIP_NULL_POINTER, "mortar.coordinates"),
         (|i| i.x2[4] = f64::INFINITY, STICKSLIP_NOT_FINITE, "mortar.coordinates[4]"),
         (|i| i.x2.copy_within(6..9, 9), STICKSLIP_INVALID_VALUE, "mortar: the frame has no volume"),
-        (
-            |i| {
-                (i.equations2[7], i.two.equations) = (5, i.equations2.as_ptr());
-                i.options.form = STICKSLIP_FORM_AUGMENTED;
-            },
-            STICKSLIP_UNSUPPORTED,
-            "(mortar.equations) with the augmented form",
-        ),
         (|i| i.two.multiplier_equations = L.as_ptr(), STICKSLIP_INVALID_VALUE, "mortar.multiplier_equations"),
     ];
     for (spoil, kind, words) in refusals {
