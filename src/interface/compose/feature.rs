@@ -145,7 +145,7 @@ impl Features {
     }
 
     /// Those of the list that are there.
-    #[inline]
+    #[inline(never)]
     pub fn which(list: &[(Feature, bool)]) -> Features {
         Features(list.iter().fold(0, |bits, (feature, is_there)| bits | u64::from(*is_there) << *feature as u8))
     }
