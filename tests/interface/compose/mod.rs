@@ -134,7 +134,7 @@ fn random(seed: u64, n: usize) -> Vec<Choice> {
         for &d in &kinds {
             choice = choice.with(d, dice.below(DIMENSIONS[d].1.len()));
         }
-        if k % 2 == 0 { choice.completed(&kinds) } else { choice }
+        if k.is_multiple_of(2) { choice.completed(&kinds) } else { choice }
     };
     (0..n).map(&mut one).collect()
 }
