@@ -1,57 +1,20 @@
 //! Features of an interface: what a host can choose, give or ask for, as far as one may not go with another. Whether an interface
 //! has one is a predicate on its data: `Options::features`, `Setup::features`.
 
-/// What features are of one another's kind: of most groups an interface has one at a time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Group {
-    /// The facets of both sides.
-    Facets,
-    /// The basis of the multipliers, where they stand, how many there are.
-    Multipliers,
-    /// The form of the residual.
-    Form,
-    /// Which normals there are.
-    Normals,
-    /// Which weights there are.
-    Weights,
-    /// What measures slip.
-    Slip,
-    /// The law.
-    Law,
-    /// Where it is decided.
-    Decision,
-    /// How overlaps are integrated.
-    Integration,
-    /// What of the tangent is left out.
-    Tangent,
-    /// Nodes that are carried.
-    Coverage,
-    /// What the mortar side is.
-    Mortar,
-    /// Offsets of nodes.
-    Offsets,
-    /// Parts and shares of an interface.
-    Parts,
-    /// What is asked of an interface.
-    Call,
-}
-
 /// A feature: what it is called in refusals, and how a host does without.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct About {
     /// The feature.
     pub feature: Feature,
-    /// Which kind it is of.
-    pub group: Group,
     /// In refusals and in the matrix.
     pub name: &'static str,
     /// The way out; empty: a host that has it cannot do without.
     pub without: &'static str,
 }
 
-/// The features, one a row: name in the code, group, name in refusals, how to do without.
+/// The features, one a row: name in the code, name in refusals, how to do without.
 macro_rules! features {
-    ($($feature:ident $group:ident $name:literal $without:literal;)*) => {
+    ($($feature:ident $name:literal $without:literal;)*) => {
         /// A feature.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         #[repr(u8)]
@@ -61,7 +24,7 @@ macro_rules! features {
 
         /// All of them, in the order of their numbers.
         pub const FEATURES: &[About] = &[
-            $(About { feature: Feature::$feature, group: Group::$group, name: $name, without: $without },)*
+            $(About { feature: Feature::$feature, name: $name, without: $without },)*
         ];
 
         /// Their names, a line for each: see [`super::Row`] for why this is no table of strings.
@@ -73,40 +36,40 @@ macro_rules! features {
 }
 
 features! {
-    Lines Facets "lines" "";
-    Quadratic Facets "quadratic facets" "";
-    MidNodes Facets "facets with mid nodes" "mesh with linear facets";
-    StandardBasis Multipliers "standard multipliers (STICKSLIP_BASIS_STANDARD)" "take STICKSLIP_BASIS_DUAL";
-    DualBasis Multipliers "dual multipliers (STICKSLIP_BASIS_DUAL)" "take STICKSLIP_BASIS_STANDARD";
-    AllNodes Multipliers "multipliers at all nodes of quadratic facets or lines (STICKSLIP_SPACE_SUB)" "take STICKSLIP_SPACE_CORNER";
-    Augmented Form "the augmented form (STICKSLIP_FORM_AUGMENTED)" "take STICKSLIP_FORM_MULTIPLIER";
-    NormalsNow Normals "normals of now (STICKSLIP_NORMALS_CURRENT)" "take STICKSLIP_NORMALS_COMMITTED";
-    HostNormals Normals "normals of the host" "leave them to the library";
-    WeightsNow Weights "weights of now (STICKSLIP_WEIGHTS_CURRENT)" "take STICKSLIP_WEIGHTS_COMMITTED or STICKSLIP_WEIGHTS_REFERENCE";
-    FrozenWeights Weights "frozen weights" "take STICKSLIP_WEIGHTS_CURRENT";
-    KeptOverlaps Weights "persistent weights (STICKSLIP_WEIGHTS_PERSISTENT)" "take other weights";
-    PaperSlip Slip "the paper's slip measure (STICKSLIP_SLIP_PAPER)" "take STICKSLIP_SLIP_OBJECTIVE or STICKSLIP_SLIP_INCREMENT";
-    Friction Law "friction (STICKSLIP_FRICTION_COULOMB)" "take STICKSLIP_FRICTION_NONE";
-    OtherLaw Law "a law that is not Coulomb's" "take STICKSLIP_FRICTION_COULOMB or STICKSLIP_FRICTION_NONE";
-    Tied Law "tied surfaces (STICKSLIP_FRICTION_TIED)" "take another law";
-    OwnLaw Law "a law of one's own" "leave Coulomb's";
-    Orthotropic Law "orthotropic friction" "give one mu";
-    Points Decision "points that decide (STICKSLIP_DECISION_POINTS)" "take STICKSLIP_DECISION_NODES";
-    ElementPoints Integration "points that stand for overlaps (options.element_points)" "take STICKSLIP_INTEGRATION_SEGMENTS";
-    FrozenNormals Tangent "the tangent with frozen normals (STICKSLIP_TANGENT_FROZEN_NORMALS)" "take the exact tangent";
-    Carried Coverage "nodes that others carry (weak_coverage > 0, the default of dual multipliers)" "give STICKSLIP_WEAK_COVERAGE_NONE";
-    Analytic Mortar "an analytic mortar side" "mesh its surface";
-    Offsets Offsets "offsets" "";
-    MortarOffsets Offsets "offsets of the mortar nodes" "give them to the non-mortar nodes";
-    Elsewhere Parts "parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE)" "";
-    Shared Parts "nodes that handles share (owned has STICKSLIP_NODE_SHARED)" "give them to one handle, with all facets around them";
-    Sums Parts "sums of several handles" "";
-    SumsTangent Parts "the tangent by sums of several handles" "";
-    Condensed Call "condensation" "keep multipliers as unknowns";
-    InPlace Call "a matrix condensed in place" "take the pieces (stickslip_interface_condensed_coo), which add up over the handles";
-    Heat Call "heat" "";
-    NodeHistory Call "a history of nodes (stickslip_interface_set_committed)" "import one of points (stickslip_interface_history_import)";
-    ShapeOffsets Call "offsets that follow from a shape" "";
+    Lines "lines" "";
+    Quadratic "quadratic facets" "";
+    MidNodes "facets with mid nodes" "mesh with linear facets";
+    StandardBasis "standard multipliers (STICKSLIP_BASIS_STANDARD)" "take STICKSLIP_BASIS_DUAL";
+    DualBasis "dual multipliers (STICKSLIP_BASIS_DUAL)" "take STICKSLIP_BASIS_STANDARD";
+    AllNodes "multipliers at all nodes of quadratic facets or lines (STICKSLIP_SPACE_SUB)" "take STICKSLIP_SPACE_CORNER";
+    Augmented "the augmented form (STICKSLIP_FORM_AUGMENTED)" "take STICKSLIP_FORM_MULTIPLIER";
+    NormalsNow "normals of now (STICKSLIP_NORMALS_CURRENT)" "take STICKSLIP_NORMALS_COMMITTED";
+    HostNormals "normals of the host" "leave them to the library";
+    WeightsNow "weights of now (STICKSLIP_WEIGHTS_CURRENT)" "take STICKSLIP_WEIGHTS_COMMITTED or STICKSLIP_WEIGHTS_REFERENCE";
+    FrozenWeights "frozen weights" "take STICKSLIP_WEIGHTS_CURRENT";
+    KeptOverlaps "persistent weights (STICKSLIP_WEIGHTS_PERSISTENT)" "take other weights";
+    PaperSlip "the paper's slip measure (STICKSLIP_SLIP_PAPER)" "take STICKSLIP_SLIP_OBJECTIVE or STICKSLIP_SLIP_INCREMENT";
+    Friction "friction (STICKSLIP_FRICTION_COULOMB)" "take STICKSLIP_FRICTION_NONE";
+    OtherLaw "a law that is not Coulomb's" "take STICKSLIP_FRICTION_COULOMB or STICKSLIP_FRICTION_NONE";
+    Tied "tied surfaces (STICKSLIP_FRICTION_TIED)" "take another law";
+    OwnLaw "a law of one's own" "leave Coulomb's";
+    Orthotropic "orthotropic friction" "give one mu";
+    Points "points that decide (STICKSLIP_DECISION_POINTS)" "take STICKSLIP_DECISION_NODES";
+    ElementPoints "points that stand for overlaps (options.element_points)" "take STICKSLIP_INTEGRATION_SEGMENTS";
+    FrozenNormals "the tangent with frozen normals (STICKSLIP_TANGENT_FROZEN_NORMALS)" "take the exact tangent";
+    Carried "nodes that others carry (weak_coverage > 0, the default of dual multipliers)" "give STICKSLIP_WEAK_COVERAGE_NONE";
+    Analytic "an analytic mortar side" "mesh its surface";
+    Offsets "offsets" "";
+    MortarOffsets "offsets of the mortar nodes" "give them to the non-mortar nodes";
+    Elsewhere "parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE)" "";
+    Shared "nodes that handles share (owned has STICKSLIP_NODE_SHARED)" "give them to one handle, with all facets around them";
+    Sums "sums of several handles" "";
+    SumsTangent "the tangent by sums of several handles" "";
+    Condensed "condensation" "keep multipliers as unknowns";
+    InPlace "a matrix condensed in place" "take the pieces (stickslip_interface_condensed_coo), which add up over the handles";
+    Heat "heat" "";
+    NodeHistory "a history of nodes (stickslip_interface_set_committed)" "import one of points (stickslip_interface_history_import)";
+    ShapeOffsets "offsets that follow from a shape" "";
 }
 
 /// A line of a text, by its number.
@@ -142,7 +105,7 @@ impl Features {
     }
 
     /// Those of the list that are there.
-    #[inline]
+    #[inline(never)]
     pub fn which(list: &[(Feature, bool)]) -> Features {
         Features(list.iter().fold(0, |bits, (feature, is_there)| bits | u64::from(*is_there) << *feature as u8))
     }

@@ -7,7 +7,7 @@ mod feature;
 mod sentence;
 mod table;
 
-pub use feature::{About, FEATURES, Feature, Features, Group};
+pub use feature::{About, FEATURES, Feature, Features};
 pub use table::{ROWS, Row, Verdict};
 
 use crate::error::{Error, Kind, Result};

@@ -5,6 +5,7 @@ use super::choice::{Asked, Choice};
 use super::handles::{Handles, Refused, TakesLaw, of, when};
 use super::scene::{At, Scene};
 use super::system::{Direction, System};
+use crate::support::differences::Point;
 use crate::support::max_abs;
 use crate::support::mesh::{Create, Random};
 use stickslip::geometry::Vec3;
@@ -23,6 +24,9 @@ const STEPS: [f64; 4] = [1e-6, 2e-7, 4e-8, 8e-9];
 const NOTHING: f64 = 1e-9;
 /// Entries in place against those of the pieces, over the largest: other orders of sums.
 const IN_PLACE: f64 = 1e-9;
+
+/// Entries of a plan against those one by one, over the largest: other orders of sums.
+const PLAN: f64 = 1e-12;
 
 /// Numbers that make all parts of the law act.
 const CONDUCTANCE: Conductance = Conductance {
@@ -118,6 +122,13 @@ where
             .for_each(|(r, _)| found.states[r.state as usize] += 1);
         let mut system = System::new(&scene, &mut handles, &at)?;
         tangents(&mut system, &mut found, step)?;
+        if choice.is("ranks", "one") && !choice.is_condensed() {
+            let point = Point { contact: &mut handles.all[0], x1: &at.x1, x2: &at.x2, lambda: &at.lambda };
+            let off = point.plan_error();
+            if !(off <= PLAN) {
+                found.wrong(format!("step {step}: entries of a plan are off by {off:.1e}"));
+            }
+        }
         if !choice.is("heat", "no") {
             heat(&scene, &mut handles, &at, &mut found)?;
         }

@@ -34,8 +34,8 @@ pub struct Choice([usize; DIMENSIONS.len()]);
 /// Only what is off the default.
 impl std::fmt::Display for Choice {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        let off = (0..DIMENSIONS.len()).filter(|&d| self.0[d] > 0);
-        off.map(|d| write!(f, "{}={} ", DIMENSIONS[d].0, DIMENSIONS[d].1[self.0[d]])).collect()
+        let mut off = (0..DIMENSIONS.len()).filter(|&d| self.0[d] > 0);
+        off.try_for_each(|d| write!(f, "{}={} ", DIMENSIONS[d].0, DIMENSIONS[d].1[self.0[d]]))
     }
 }
 

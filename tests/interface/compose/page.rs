@@ -128,7 +128,8 @@ A choice goes with every other one, unless this page says that it does not. `mak
 `STICKSLIP_UNSUPPORTED`. It comes at the creation of an interface where options and surfaces do not go together, else from the call that
 brings what does not go. Numbers that are out of their range are refused elsewhere, with other statuses.
 
-`tests/interface/compose` tries every pair of choices and random combinations: what the page does not name works.
+`tests/interface/compose` tries every pair of choices and random combinations: what the page does not name works. Paths that begin with `src` or
+`tests` are those of the source tree.
 
 In the first table an empty place says that two things go together. `-` says that they do not by what they mean, `x` that this version has
 not built it, and brackets that a third one belongs to it. The second table says which.

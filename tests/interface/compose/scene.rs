@@ -181,7 +181,7 @@ impl Scene {
             },
             threads: if c.is("threads", "4") { 4 } else { 1 },
             scheme: match c.of("integration") {
-                "elements" => Scheme::Elements(cell::line_of(3).unwrap()),
+                "elements" => Scheme::Elements(cell::line_of(6).unwrap()), // facets that are hardly covered have some points, too
                 "hybrid" => Scheme::Hybrid(cell::line_of(3).unwrap()),
                 _ => Scheme::Segments,
             },
