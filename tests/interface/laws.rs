@@ -460,9 +460,18 @@ fn what_is_no_law_is_refused_by_name() {
         let e = refused(&mut t.interface, Own::Cohesion { cohesion: 1.0 });
         assert!(e.kind == Kind::InvalidValue && e.message.contains(friction.law().name), "{e}");
     }
-    let of = Options { mu: MU, normals: Normals::Current, ..options() };
-    let mut t = moved(&of, [Cells::Quads; 2], FLAT, 3);
-    assert_eq!(refused(&mut t.interface, ellipse(0.2)).kind, Kind::Unsupported);
+}
+
+/// The axes of the ellipse turn with the normals, in both forms.
+#[test]
+fn an_ellipse_turns_with_normals_of_now() {
+    for (form, across) in [Form::Multiplier, Form::Augmented].into_iter().flat_map(|f| [0.2, 0.6, MU].map(|m| (f, m))) {
+        let of = Options { mu: MU, form, normals: Normals::Current, ..options() };
+        let mut t = moved(&of, [Cells::Triangles; 2], FLAT, 3);
+        t.interface.set_law(Some(ellipse(across))).unwrap();
+        let error = error(&mut t.interface, (&t.x1, &t.x2), &t.lambda);
+        assert!(error <= DIFFERENCES, "{form:?}, {across} across: {error:e}");
+    }
 }
 
 /// With mu = 0 at every node the library leaves friction out; with cohesion it must not.
