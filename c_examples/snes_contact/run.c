@@ -105,7 +105,7 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
   if (*done && !newton->why[0]) {
     PetscCall(slide_check(&model->contact, &newton->slid, newton->why, sizeof(newton->why)));
     if (!newton->why[0]) PetscCall(kept_check(&model->contact, newton->why, sizeof(newton->why)));
-    if (!newton->why[0]) PetscCall(unseen_check(&model->contact, &newton->slid, newton->why, sizeof(newton->why)));
+    if (!newton->why[0]) PetscCall(unseen_check(&model->contact, last, &run->late, &newton->slid, newton->why, sizeof(newton->why)));
     if (!newton->why[0]) PetscCall(newly_check(&model->contact, newton->why, sizeof(newton->why)));
     newton->refused_commit = (PetscBool)(newton->why[0] != 0);
   }

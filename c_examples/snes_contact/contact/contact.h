@@ -460,7 +460,7 @@ PetscErrorCode slide_accept(Contact *contact);
 PetscErrorCode slide_find(const Interface *interface, const Mesh *mesh, double found, int64_t node, Frozen *frozen, PetscReal where[4]);
 
 /* unseen.c */
-PetscErrorCode unseen_check(Contact *contact, PetscReal *ratio, char why[], size_t length);
+PetscErrorCode unseen_check(Contact *contact, PetscBool last, PetscBool *late, PetscReal *ratio, char why[], size_t length);
 PetscErrorCode unseen_accept(Contact *contact);
 PetscErrorCode unseen_end(const Contact *contact);
 /* kept.c: what persistent weights leave of overlaps: of that at the start, and across what gap surfaces are tied, after contact_gather(); by how

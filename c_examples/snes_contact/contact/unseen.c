@@ -4,11 +4,14 @@
  * does not count: it is cut back, for shorter ones turn less and end before the bodies are deep in each other. */
 #include "contact/contact.h"
 
-/* An overlap, over the library's scale, that is told, and one with which no step counts: a hundredth and a tenth of a facet where the
- * pressure is large; where nothing presses, less. */
-static const PetscReal OVERLAP_TOLD = 0.03, OVERLAP_MOST = 0.1;
-/* Before anything has pressed the scale is a tenth of a facet: a tip may dent one by so much before that feels it. */
-static const PetscReal OVERLAP_FIRST = 1;
+/* An overlap, over the library's scale, that is told. The scale is a facet's edge where nothing feels the overlap, which may be all that the
+ * bodies have approached by; where it is felt, thirty of them. */
+static const PetscReal OVERLAP_TOLD = 0.003;
+/* With more no run ends. On its way in a tip dents facets until these feel it, and no shorter step keeps it from that. */
+static const PetscReal OVERLAP_END = 0.02;
+/* With more no step counts where the interface has pressed before: it has lost its contact. So it is where nodes press so far from
+ * anything. */
+static const PetscReal OVERLAP_MOST = 0.1;
 /* A lag that is told, of a node over the largest traction or of all nodes over their force; with which no step counts is `lag_max`. */
 static const PetscReal LAG_TOLD = 0.01;
 /* One node in contact is no news of a surface of so few. */
@@ -55,21 +58,29 @@ static PetscErrorCode measure(Interface *interface, const Mesh *mesh)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What an overlap may be; `last`: the run would end with this step. */
+static PetscReal overlap_most(const Interface *interface, PetscBool last)
+{
+  if (last) return OVERLAP_END;
+  return interface->largest_traction > 0 ? OVERLAP_MOST : PETSC_MAX_REAL;
+}
+
 /* At a converged state that the interfaces have been judged at. `why`, where it does not count; `ratio`: at least how many times too
- * long the step was. Weights of the reference are for displacements too small to be seen: what they overlap by is told alone. So it is with
- * `dynamics`: no shorter step stops a tip that dents a facet before that presses, and what sinks is stopped by kept.c. */
-PetscErrorCode unseen_check(Contact *contact, PetscReal *ratio, char why[], size_t length)
+ * long the step was; `late`: no shorter one helps. Weights of the reference are for displacements too small to be seen: what they overlap by is told
+ * alone. So it is with `dynamics`: no shorter step stops a tip that dents a facet before that presses, and what sinks is stopped by kept.c. */
+PetscErrorCode unseen_check(Contact *contact, PetscBool last, PetscBool *late, PetscReal *ratio, char why[], size_t length)
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    Interface    *interface = &contact->interfaces[i];
-    const PetscBool told    = (PetscBool)(contact->physics->dynamics || interface->options.weights == STICKSLIP_WEIGHTS_REFERENCE);
-    PetscReal     lags;
-    const Frozen *wrong[]   = {&interface->overlap, &interface->apart};
+    Interface      *interface = &contact->interfaces[i];
+    const PetscBool told      = (PetscBool)(contact->physics->dynamics || interface->options.weights == STICKSLIP_WEIGHTS_REFERENCE);
+    PetscReal       lags;
     PetscCall(measure(interface, contact->mesh));
-    for (int k = 0; k < 2; k++) {
-      if (wrong[k]->amount > (interface->largest_traction > 0 ? OVERLAP_MOST : OVERLAP_FIRST) && !told)
-        PetscCall(PetscSNPrintf(why, length, "converged, but %s. %s", wrong[k]->words, remedy(interface)));
+    if (interface->apart.amount > OVERLAP_MOST && !told)
+      PetscCall(PetscSNPrintf(why, length, "converged, but %s. %s", interface->apart.words, remedy(interface)));
+    if (interface->overlap.amount > overlap_most(interface, last) && !told) {
+      PetscCall(PetscSNPrintf(why, length, "converged, but %s. %s", interface->overlap.words, remedy(interface)));
+      *late = last;
     }
     lags   = PetscMax(interface->lag.amount, interface->lag_force) / interface->lag.most;
     *ratio = PetscMax(*ratio, LAG_MARGIN * lags);

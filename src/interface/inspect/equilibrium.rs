@@ -210,9 +210,7 @@ pub fn equilibrium<const N: usize>(
             let acts = given.setup.has_multiplier(a) && given.setup.nodes.acts(a);
             acts && lambda[a].norm() * (sums[a].coverage / areas[a]).min(1.0) > least
         };
-        let scales = Scales { traction, ..*scales };
-        [all.penetration, all.apart] =
-            overlap::largest(&given.setup.nonmortar, &work.room.seen, &presses, &scales, rounding);
+        [all.penetration, all.apart] = overlap::largest(&given.setup.nonmortar, &work.room.seen, &presses, rounding);
     }
     Ok(all)
 }
