@@ -169,6 +169,9 @@ typedef struct {
   Frozen                sunk;                 /* likewise: what it has grown by since */
   Frozen                overlap, apart, lag; /* over the library's scales, see unseen.c */
   PetscReal             lag_force;           /* of all nodes, over what they press with */
+  PetscBool             lag_corrects;        /* a step that lags is solved again: lag.c */
+  double               *normals;             /* with these, at home, `dimension` numbers each; NULL: those of t_n serve */
+  PetscReal             lag_left;            /* what these are wrong by, over what nodes press with */
   PetscReal             depth;               /* how far the bodies overlap there */
   PetscReal             tied_gap; /* of tied surfaces that are farther apart at the start than is told (kept.c); 0: none are */
 } Interface;
@@ -463,6 +466,11 @@ PetscErrorCode slide_find(const Interface *interface, const Mesh *mesh, double f
 PetscErrorCode unseen_check(Contact *contact, PetscBool last, PetscBool *late, PetscReal *ratio, char why[], size_t length);
 PetscErrorCode unseen_accept(Contact *contact);
 PetscErrorCode unseen_end(const Contact *contact);
+/* lag.c: a converged step is solved again with the normals that it has reached */
+PetscErrorCode lag_wants_correction(const Contact *contact, PetscBool *wants);
+PetscErrorCode lag_take_normals(Contact *contact, PetscBool *done);
+PetscErrorCode lag_set(const Interface *interface, stickslip_interface *handle, int32_t *refused);
+PetscErrorCode lag_forget(Contact *contact);
 /* kept.c: what persistent weights leave of overlaps: of that at the start, and across what gap surfaces are tied, after contact_gather(); by how
  * much overlaps have grown since, at a converged state: why the step does not count; and told, where it does */
 PetscErrorCode kept_tell(const Contact *contact, Interface *interface);

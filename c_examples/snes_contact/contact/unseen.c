@@ -44,9 +44,9 @@ static PetscErrorCode measure(Interface *interface, const Mesh *mesh)
   PetscCall(slide_find(interface, mesh, e->lag > 0 ? e->lag / traction : 0, e->lag_node, lag, at));
   interface->depth = where[3];
   force[0]         = interface->part.handle ? e->lag_force : 0;
-  force[1]         = interface->part.handle ? e->lag_force_scale : 0;
+  force[1]         = interface->part.handle ? e->lag_force_scale : 0; /* 0 with the host's normals */
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, force, 2, MPIU_REAL, MPI_SUM, PETSC_COMM_WORLD));
-  interface->lag_force = force[1] > 0 ? force[0] / force[1] : 0;
+  interface->lag_force = interface->normals ? interface->lag_left : force[1] > 0 ? force[0] / force[1] : 0;
   PetscCall(PetscSNPrintf(overlap->words, sizeof(overlap->words), "the bodies of %s overlap by %.2g at (%g, %g, %g)", interface->name,
                           (double)where[3], (double)where[0], (double)where[1], (double)where[2]));
   PetscCall(PetscSNPrintf(apart->words, sizeof(apart->words), "the bodies of %s press each other at (%g, %g, %g) although they are %.2g apart",
