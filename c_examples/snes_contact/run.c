@@ -78,12 +78,12 @@ static PetscErrorCode solve_on(Model *model, Run *run, PetscBool *done)
 {
   Newton        *newton     = &model->solve.newton;
   const PetscInt iterations = newton->iterations;
-  PetscBool      wants      = PETSC_FALSE;
+  PetscBool      lags       = PETSC_FALSE;
   PetscFunctionBegin;
-  for (int k = 0; k < CORRECTIONS && *done; k++) {
-    PetscCall(lag_wants_correction(&model->contact, &wants));
-    if (wants) PetscCall(lag_take_normals(&model->contact, &wants));
-    if (!wants) break;
+  if (*done) PetscCall(lag_told(&model->contact, &lags));
+  for (int k = 0; lags && *done; k++) {
+    PetscCall(lag_take_normals(&model->contact, (PetscBool)(k < CORRECTIONS), &lags));
+    if (!lags) break;
     newton->goes_on = PETSC_TRUE;
     PetscCall(solve_determined(model, run, done));
     newton->goes_on = PETSC_FALSE;

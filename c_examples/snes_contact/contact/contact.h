@@ -170,8 +170,8 @@ typedef struct {
   Frozen                overlap, apart, lag; /* over the library's scales, see unseen.c */
   PetscReal             lag_force;           /* of all nodes, over what they press with */
   PetscBool             lag_corrects;        /* a step that lags is solved again: lag.c */
-  double               *normals;             /* with these, at home, `dimension` numbers each; NULL: those of t_n serve */
-  PetscReal             lag_left;            /* what these are wrong by, over what nodes press with */
+  double               *normals, *lag_change; /* with these, at home, `dimension` numbers each; NULL: those of t_n serve. 3 each: those of
+                                                 now less them, when they were found */
   PetscReal             depth;               /* how far the bodies overlap there */
   PetscReal             tied_gap; /* of tied surfaces that are farther apart at the start than is told (kept.c); 0: none are */
 } Interface;
@@ -203,6 +203,7 @@ typedef struct {
   PetscBool  reduced;   /* the solver takes its reduced form: E_L - I, E_R - I, Q, s D Q, as REDUCTION_... */
   Mat        reduction[N_REDUCTION];
   Settling   settling;
+  PetscReal  lag_left, lag_part; /* lag.c: what the normals in use were wrong by when last looked at; the part of the way that they went then */
   char       refusal[1024]; /* the library's last message, if it refused an evaluation */
   PetscLogDouble seconds_forces, seconds_tangent;
 } Contact;
@@ -467,8 +468,8 @@ PetscErrorCode unseen_check(Contact *contact, PetscBool last, PetscBool *late, P
 PetscErrorCode unseen_accept(Contact *contact);
 PetscErrorCode unseen_end(const Contact *contact);
 /* lag.c: a converged step is solved again with the normals that it has reached */
-PetscErrorCode lag_wants_correction(const Contact *contact, PetscBool *wants);
-PetscErrorCode lag_take_normals(Contact *contact, PetscBool *done);
+PetscErrorCode lag_told(const Contact *contact, PetscBool *told);
+PetscErrorCode lag_take_normals(Contact *contact, PetscBool may, PetscBool *changed);
 PetscErrorCode lag_set(const Interface *interface, stickslip_interface *handle, int32_t *refused);
 PetscErrorCode lag_forget(Contact *contact);
 /* kept.c: what persistent weights leave of overlaps: of that at the start, and across what gap surfaces are tied, after contact_gather(); by how

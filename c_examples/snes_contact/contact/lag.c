@@ -3,12 +3,16 @@
  * begins at the last one and takes few iterations. What the library knows of normals at a place is what a commit there would make of them: it
  * is asked so, and the commit rolled back. */
 #include "contact/contact.h"
+#include <stdlib.h>
 
 /* Part of the forces that normals may still be wrong by: so much less than is told that friction, which may be a tenth of the pressure, is
  * right to what is told. */
 static const PetscReal LEFT = 1e-3;
 /* A lag from which a step is solved again: what is told. */
 static const PetscReal LAGS = 0.01;
+
+/* Bounds of the part of the way to normals of now that the next ones go. */
+static const PetscReal SHORTEST = 0.1, LONGEST = 2;
 
 /* Do its normals follow, could others, and are they for this interface wrong by more than they may? Where it solves in time, normals of t_n are
  * part of what keeps the energy (docs/dynamics.md). */
@@ -20,60 +24,108 @@ static PetscBool may_be_corrected(const Contact *contact, const Interface *inter
 }
 
 /* At a converged state that the interfaces have been judged at. */
-PetscErrorCode lag_wants_correction(const Contact *contact, PetscBool *wants)
+PetscErrorCode lag_told(const Contact *contact, PetscBool *told)
 {
   PetscReal forces[2];
   PetscFunctionBegin;
-  *wants = PETSC_FALSE;
+  *told = PETSC_FALSE;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     const Interface             *interface = &contact->interfaces[i];
     const stickslip_equilibrium *e         = &interface->equilibrium;
     if (!may_be_corrected(contact, interface)) continue;
-    if (interface->normals) {
-      *wants = (PetscBool)(*wants || interface->lag_left > LEFT);
-      continue;
-    }
     forces[0] = interface->part.handle ? e->lag_force : 0;
     forces[1] = interface->part.handle ? e->lag_force_scale : 0;
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, forces, 2, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
-    *wants = (PetscBool)(*wants || forces[0] > LAGS * forces[1] || (interface->part.handle && e->lag > LAGS * e->traction_scale));
+    *told = (PetscBool)(*told || forces[0] > LAGS * forces[1] || (interface->part.handle && e->lag > LAGS * e->traction_scale));
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, wants, 1, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, told, 1, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Of a part: normals of now, in place of `normals`, and what these are wrong by: sums of the tractions times the change, and of the tractions, by
- * area. Returns the library's status. */
-static int32_t find(ContactPart *part, double normals[], PetscReal sums[2])
+/* What is known of a node at home: the normal in use, that of now, and the force that acts there. */
+enum { USED, NOW = 3, FORCE = 6, N_KNOWN };
+
+/* Of a part, N_KNOWN numbers a node. Returns the library's status. */
+static int32_t find(ContactPart *part, double known[])
 {
-  stickslip_interface *handle = part->handle;
-  const PetscInt       d = part->dimension, n1 = part->n1;
-  stickslip_states     used = {.struct_size = sizeof(used)}, now = {.struct_size = sizeof(now)};
-  int32_t              status;
-  PetscCallAbort(PETSC_COMM_SELF, PetscMalloc3(d * n1, &used.normal, d * n1, &used.traction, n1, &used.coverage));
-  now.normal = normals;
-  status     = stickslip_interface_states(handle, STATE_OF(part), NULL, &used);
-  if (!status) status = stickslip_interface_commit(handle, STATE_OF(part), NULL);
+  const PetscInt   d = part->dimension, n1 = part->n1;
+  stickslip_states used = {.struct_size = sizeof(used)}, now = {.struct_size = sizeof(now)};
+  int32_t          status;
+  PetscCallAbort(PETSC_COMM_SELF, PetscMalloc4(d * n1, &used.normal, d * n1, &used.traction, n1, &used.coverage, d * n1, &now.normal));
+  status = stickslip_interface_states(part->handle, STATE_OF(part), NULL, &used);
+  if (!status) status = stickslip_interface_commit(part->handle, STATE_OF(part), NULL);
   if (!status) {
-    status = stickslip_interface_set_normals(handle, NULL);
-    if (!status) status = stickslip_interface_states(handle, STATE_OF(part), NULL, &now);
-    PetscCallStickslip(stickslip_interface_rollback(handle));
+    PetscCallStickslip(stickslip_interface_set_normals(part->handle, NULL));
+    status = stickslip_interface_states(part->handle, STATE_OF(part), NULL, &now);
+    PetscCallStickslip(stickslip_interface_rollback(part->handle));
   }
   for (PetscInt a = 0; a < n1 && !status; a++) {
-    double p[3], before[3], after[3], change = 0, traction = 0;
+    double *of = known + N_KNOWN * a, p[3];
     contact_vector(d, used.traction, a, p);
-    contact_vector(d, used.normal, a, before);
-    contact_vector(d, normals, a, after);
-    for (int k = 0; k < 3; k++) {
-      traction += p[k] * p[k];
-      change += (after[k] - before[k]) * (after[k] - before[k]);
-    }
-    if (part->owned[a] != STICKSLIP_NODE_OWN) continue;
-    sums[0] += PetscSqrtReal(traction * change) * used.coverage[a];
-    sums[1] += PetscSqrtReal(traction) * used.coverage[a];
+    contact_vector(d, used.normal, a, of + USED);
+    contact_vector(d, now.normal, a, of + NOW);
+    of[FORCE] = PetscSqrtReal(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) * used.coverage[a];
   }
-  PetscCallAbort(PETSC_COMM_SELF, PetscFree3(used.normal, used.traction, used.coverage));
+  PetscCallAbort(PETSC_COMM_SELF, PetscFree4(used.normal, used.traction, used.coverage, now.normal));
   return status;
+}
+
+/* From all parts to homes; `refused`: by the library, on any rank. */
+static PetscErrorCode collect(Contact *contact, Interface *interface, double known[], PetscInt *refused)
+{
+  ContactPart *part = &interface->part;
+  int32_t      status = 0;
+  double      *here;
+  PetscFunctionBegin;
+  PetscCall(contact_gather(contact, interface, contact->physics->u_local));
+  PetscCall(PetscCalloc1(N_KNOWN * part->n1, &here));
+  if (part->handle) status = find(part, here);
+  PetscCall(contact_agree(contact, interface, status, refused));
+  PetscCall(parts_collect(part, N_KNOWN, here, known));
+  PetscCall(PetscFree(here));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What normals in use are wrong by, beside the last time's: sums over the nodes, by force. */
+typedef struct {
+  PetscReal wrong, forces;   /* sums of change times force, of forces */
+  PetscReal product, square; /* of the last time's with how it has changed since; of that */
+} Change;
+
+static void add_change(const Interface *interface, const double known[], Change *change)
+{
+  for (PetscInt a = 0; a < interface->n1; a++) {
+    const double *of = known + N_KNOWN * a;
+    double        size = 0;
+    for (int k = 0; k < 3; k++) {
+      const double r = of[NOW + k] - of[USED + k], before = interface->lag_change ? interface->lag_change[3 * a + k] : 0;
+      size += r * r;
+      change->product += of[FORCE] * before * (r - before);
+      change->square += of[FORCE] * (r - before) * (r - before);
+    }
+    change->wrong += of[FORCE] * PetscSqrtReal(size);
+    change->forces += of[FORCE];
+  }
+}
+
+/* The next normals, at homes: by a part of the way. */
+static PetscErrorCode move(Interface *interface, const double known[], PetscReal part)
+{
+  const PetscInt d = interface->dimension;
+  PetscFunctionBegin;
+  if (!interface->normals) PetscCall(PetscMalloc2(d * interface->n1, &interface->normals, 3 * interface->n1, &interface->lag_change));
+  for (PetscInt a = 0; a < interface->n1; a++) {
+    const double *of = known + N_KNOWN * a;
+    double        next[3], size = 0;
+    for (int k = 0; k < 3; k++) {
+      interface->lag_change[3 * a + k] = of[NOW + k] - of[USED + k];
+      next[k]                          = of[USED + k] + part * (of[NOW + k] - of[USED + k]);
+      size += next[k] * next[k];
+    }
+    for (int k = 0; k < d; k++)
+      interface->normals[d * a + k] = next[k] / PetscSqrtReal(size);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Of any handle of the interface's part: the normals of the step, from homes. */
@@ -93,34 +145,42 @@ PetscErrorCode lag_set(const Interface *interface, stickslip_interface *handle, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* At a converged state: normals of now for what comes, on all ranks. `done`: they have been found; else all is as it was. */
-PetscErrorCode lag_take_normals(Contact *contact, PetscBool *done)
+/* At a converged state, on all ranks: what the normals in use are wrong by; and, where that is more than may be left, other ones for what comes, if
+ * they `may` `change`. They are those of now
+ * but for a factor on the way there, Aitken's: a shaft that friction twists turns back by as much as its normals were behind, and would
+ * come and go for ever. */
+PetscErrorCode lag_take_normals(Contact *contact, PetscBool may, PetscBool *changed)
 {
-  PetscInt refused = 0;
+  Change    change  = {0};
+  PetscInt  refused = 0, n = 0;
+  double   *known, *of;
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < contact->n_interfaces && !refused; i++) {
-    Interface   *interface = &contact->interfaces[i];
-    ContactPart *part      = &interface->part;
-    PetscReal    sums[2]   = {0, 0};
-    double      *normals;
-    int32_t      status = 0;
+  for (PetscInt i = 0; i < contact->n_interfaces; i++)
+    n += contact->interfaces[i].n1;
+  PetscCall(PetscMalloc1(N_KNOWN * n, &known));
+  of = known;
+  for (PetscInt i = 0; i < contact->n_interfaces && !refused; of += N_KNOWN * contact->interfaces[i++].n1) {
+    if (!may_be_corrected(contact, &contact->interfaces[i])) continue;
+    PetscCall(collect(contact, &contact->interfaces[i], of, &refused));
+    add_change(&contact->interfaces[i], of, &change);
+  }
+  contact->refusal[0] = 0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &change, sizeof(change) / sizeof(PetscReal), MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
+  contact->lag_left = change.forces > 0 ? change.wrong / change.forces : 0;
+  *changed          = (PetscBool)(may && !refused && contact->lag_left > LEFT);
+  contact->lag_part = contact->lag_part > 0 && change.square > 0 ? -contact->lag_part * change.product / change.square : 1;
+  contact->lag_part = PetscMin(LONGEST, PetscMax(SHORTEST, contact->lag_part));
+  if (getenv("LAGDEBUG")) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "LAG t %g left %g part %g\n", (double)contact->physics->t, (double)contact->lag_left, (double)contact->lag_part));
+  of = known;
+  for (PetscInt i = 0; i < contact->n_interfaces; of += N_KNOWN * contact->interfaces[i++].n1) {
+    Interface *interface = &contact->interfaces[i];
+    int32_t    status;
     if (!may_be_corrected(contact, interface)) continue;
-    PetscCall(contact_gather(contact, interface, contact->physics->u_local));
-    PetscCall(PetscCalloc1(part->dimension * part->n1, &normals));
-    if (part->handle) status = find(part, normals, sums);
-    PetscCall(contact_agree(contact, interface, status, &refused));
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
-    if (!refused) {
-      if (!interface->normals) PetscCall(PetscMalloc1(part->dimension * interface->n1, &interface->normals));
-      PetscCall(parts_collect(part, part->dimension, normals, interface->normals));
-      interface->lag_left = sums[1] > 0 ? sums[0] / sums[1] : 0;
-    }
-    PetscCall(PetscFree(normals));
-    PetscCall(lag_set(interface, part->handle, &status));
+    if (*changed) PetscCall(move(interface, of, contact->lag_part));
+    PetscCall(lag_set(interface, interface->part.handle, &status));
     PetscCheck(!status, PETSC_COMM_SELF, PETSC_ERR_LIB, "stickslip: %s", stickslip_last_error_message());
   }
-  *done = (PetscBool)!refused;
-  contact->refusal[0] = 0;
+  PetscCall(PetscFree(known));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -128,11 +188,11 @@ PetscErrorCode lag_take_normals(Contact *contact, PetscBool *done)
 PetscErrorCode lag_forget(Contact *contact)
 {
   PetscFunctionBegin;
+  contact->lag_part = contact->lag_left = 0;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     Interface *interface = &contact->interfaces[i];
     if (!interface->normals) continue;
-    PetscCall(PetscFree(interface->normals));
-    interface->lag_left = 0;
+    PetscCall(PetscFree2(interface->normals, interface->lag_change));
     if (interface->part.handle) PetscCallStickslip(stickslip_interface_set_normals(interface->part.handle, NULL));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

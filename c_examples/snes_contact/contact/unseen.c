@@ -31,8 +31,9 @@ static const char *remedy(const Interface *interface)
          "`decision: points`";
 }
 
-static PetscErrorCode measure(Interface *interface, const Mesh *mesh)
+static PetscErrorCode measure(const Contact *contact, Interface *interface)
 {
+  const Mesh                  *mesh      = contact->mesh;
   const stickslip_equilibrium *e         = &interface->equilibrium;
   Frozen                      *overlap   = &interface->overlap, *apart = &interface->apart, *lag = &interface->lag;
   PetscReal                    where[4]  = {0, 0, 0, e->penetration}, there[4] = {0, 0, 0, e->apart}, at[4] = {0};
@@ -46,7 +47,7 @@ static PetscErrorCode measure(Interface *interface, const Mesh *mesh)
   force[0]         = interface->part.handle ? e->lag_force : 0;
   force[1]         = interface->part.handle ? e->lag_force_scale : 0; /* 0 with the host's normals */
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, force, 2, MPIU_REAL, MPI_SUM, PETSC_COMM_WORLD));
-  interface->lag_force = interface->normals ? interface->lag_left : force[1] > 0 ? force[0] / force[1] : 0;
+  interface->lag_force = interface->normals ? contact->lag_left : force[1] > 0 ? force[0] / force[1] : 0;
   PetscCall(PetscSNPrintf(overlap->words, sizeof(overlap->words), "the bodies of %s overlap by %.2g at (%g, %g, %g)", interface->name,
                           (double)where[3], (double)where[0], (double)where[1], (double)where[2]));
   PetscCall(PetscSNPrintf(apart->words, sizeof(apart->words), "the bodies of %s press each other at (%g, %g, %g) although they are %.2g apart",
@@ -75,7 +76,7 @@ PetscErrorCode unseen_check(Contact *contact, PetscBool last, PetscBool *late, P
     Interface      *interface = &contact->interfaces[i];
     const PetscBool told      = (PetscBool)(contact->physics->dynamics || interface->options.weights == STICKSLIP_WEIGHTS_REFERENCE);
     PetscReal       lags;
-    PetscCall(measure(interface, contact->mesh));
+    PetscCall(measure(contact, interface));
     if (interface->apart.amount > OVERLAP_MOST && !told)
       PetscCall(PetscSNPrintf(why, length, "converged, but %s. %s", interface->apart.words, remedy(interface)));
     if (interface->overlap.amount > overlap_most(interface, last) && !told) {
