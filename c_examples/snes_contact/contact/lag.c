@@ -3,7 +3,6 @@
  * begins at the last one and takes few iterations. What the library knows of normals at a place is what a commit there would make of them: it
  * is asked so, and the commit rolled back. */
 #include "contact/contact.h"
-#include <stdlib.h>
 
 /* Part of the forces that normals may still be wrong by: so much less than is told that friction, which may be a tenth of the pressure, is
  * right to what is told. */
@@ -14,11 +13,12 @@ static const PetscReal LAGS = 0.01;
 /* Bounds of the part of the way to normals of now that the next ones go. */
 static const PetscReal SHORTEST = 0.1, LONGEST = 2;
 
-/* Do its normals follow, could others, and are they for this interface wrong by more than they may? Where it solves in time, normals of t_n are
- * part of what keeps the energy (docs/dynamics.md). */
+/* Does the interface take other normals? In dynamics those of t_n are part of what keeps the energy (docs/dynamics.md); where points decide with
+ * friction these remember tractions of t_n, and only shorter steps turn them less (slide.c). */
 static PetscBool may_be_corrected(const Contact *contact, const Interface *interface)
 {
   const stickslip_options *options = &interface->options;
+  if (decision_is_points(interface) && options->friction != STICKSLIP_FRICTION_NONE) return PETSC_FALSE;
   return (PetscBool)(interface->lag_corrects && !contact->physics->dynamics && options->friction != STICKSLIP_FRICTION_TIED &&
                      options->normals == STICKSLIP_NORMALS_COMMITTED && options->weights != STICKSLIP_WEIGHTS_REFERENCE);
 }
@@ -170,7 +170,6 @@ PetscErrorCode lag_take_normals(Contact *contact, PetscBool may, PetscBool *chan
   *changed          = (PetscBool)(may && !refused && contact->lag_left > LEFT);
   contact->lag_part = contact->lag_part > 0 && change.square > 0 ? -contact->lag_part * change.product / change.square : 1;
   contact->lag_part = PetscMin(LONGEST, PetscMax(SHORTEST, contact->lag_part));
-  if (getenv("LAGDEBUG")) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "LAG t %g left %g part %g\n", (double)contact->physics->t, (double)contact->lag_left, (double)contact->lag_part));
   of = known;
   for (PetscInt i = 0; i < contact->n_interfaces; of += N_KNOWN * contact->interfaces[i++].n1) {
     Interface *interface = &contact->interfaces[i];

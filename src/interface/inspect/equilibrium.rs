@@ -210,7 +210,10 @@ pub fn equilibrium<const N: usize>(
             let acts = given.setup.has_multiplier(a) && given.setup.nodes.acts(a);
             acts && lambda[a].norm() * (sums[a].coverage / areas[a]).min(1.0) > least
         };
-        [all.penetration, all.apart] = overlap::largest(&given.setup.nonmortar, &work.room.seen, &presses, rounding);
+        // Weights of the reference do not know where the surfaces are, and persistent ones take overlaps for closed.
+        let feels = matches!(options.weights, Weights::Current | Weights::Committed);
+        [all.penetration, all.apart] =
+            overlap::largest(&given.setup.nonmortar, &work.room.seen, &presses, feels, rounding);
     }
     Ok(all)
 }

@@ -19,13 +19,14 @@ use crate::interface::pairing::seen::{Nearest, Seen};
 /// presses with a third of one.
 const FELT: f64 = 30.0;
 
-/// The largest overlap, and the largest distance at which a node `presses`, of what was looked at. `rounding` does not
-/// count.
+/// The largest overlap, and the largest distance at which a node `presses`, of what was looked at. `feels`: weights
+/// know of overlaps. `rounding` does not count.
 #[inline(never)]
 pub fn largest(
     one: &Surface,
     seen: &Seen,
     presses: &dyn Fn(usize) -> bool,
+    feels: bool,
     rounding: f64,
 ) -> [Largest; 2] {
     let mut found = [Largest::default(); 2];
@@ -37,8 +38,8 @@ pub fn largest(
     let hidden = |n: &Nearest| one.facets[n.facet].as_slice().iter().all(|&a| nearer(n, a));
     for n in seen.nearest.iter().filter(|n| n.opposes && n.gap < -n.sagittas[0] && !hidden(n)) {
         let pressed = one.rows(n.facet).as_slice().iter().any(|&a| presses(a));
-        let (round, edges) = if pressed { (n.sagittas[1], FELT) } else { (0.0, 1.0) };
-        offer(0, n, -n.gap - n.sagittas[0] - round, edges * n.size);
+        let round = if pressed { n.sagittas[1] } else { 0.0 };
+        offer(0, n, -n.gap - n.sagittas[0] - round, if pressed && feels { FELT * n.size } else { n.size });
     }
     let pressing = seen.front.iter().enumerate().filter(|(a, n)| n.gap.is_finite() && presses(*a));
     pressing.for_each(|(_, n)| offer(1, n, n.gap - n.sagittas[0] - n.sagittas[1], n.size));
