@@ -4,11 +4,11 @@
  * is asked so, and the commit rolled back. */
 #include "contact/contact.h"
 
-/* Part of the forces that normals may still be wrong by: so much less than is told that friction, which may be a tenth of the pressure, is
- * right to what is told. */
-static const PetscReal LEFT = 1e-3;
-/* A lag from which a step is solved again: what is told. */
-static const PetscReal LAGS = 0.01;
+/* Part of the force of an interface that is wrong by more than its mesh shows: the step is solved again. So it is where a node is as far off
+ * as is refused. */
+static const PetscReal LAGS = 0.02;
+/* What normals may still be wrong by then: friction, which may be a tenth of the pressure, is right to that part. */
+static const PetscReal LEFT = 2e-3;
 
 /* Bounds of the part of the way to normals of now that the next ones go. */
 static const PetscReal SHORTEST = 0.1, LONGEST = 2;
@@ -36,7 +36,7 @@ PetscErrorCode lag_told(const Contact *contact, PetscBool *told)
     forces[0] = interface->part.handle ? e->lag_force : 0;
     forces[1] = interface->part.handle ? e->lag_force_scale : 0;
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, forces, 2, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
-    *told = (PetscBool)(*told || forces[0] > LAGS * forces[1] || (interface->part.handle && e->lag > LAGS * e->traction_scale));
+    *told = (PetscBool)(*told || forces[0] > LAGS * forces[1] || (interface->part.handle && e->lag > interface->lag.most * e->traction_scale));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, told, 1, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,7 +1,7 @@
 /* What a converged step may be wrong by although its forces balance and its contact is in equilibrium: bodies that really overlap, or
  * are apart where they press, which the means of gaps over facets do not see, and with normals of t_n a pressure that lags behind the
- * surface. The library measures it (stickslip_equilibrium); what is done about it is said here. A step that is too far off
- * does not count: it is cut back, for shorter ones turn less and end before the bodies are deep in each other. */
+ * surface, unless lag.c has found others. The library measures it (stickslip_equilibrium); what is done about it is said here. A step
+ * that is too far off does not count: it is cut back, for shorter ones turn less. */
 #include "contact/contact.h"
 
 /* An overlap, over the library's scale, that is told. The scale is a facet's edge where nothing feels the overlap, which may be all that the

@@ -211,9 +211,11 @@ pub fn equilibrium<const N: usize>(
             acts && lambda[a].norm() * (sums[a].coverage / areas[a]).min(1.0) > least
         };
         // Weights of the reference do not know where the surfaces are, and persistent ones take overlaps for closed.
-        let feels = matches!(options.weights, Weights::Current | Weights::Committed);
+        let knows = matches!(options.weights, Weights::Current | Weights::Committed);
+        // A node that another handle speaks for presses, too.
+        let feels = |a: usize| knows && lambda[a].norm() > least;
         [all.penetration, all.apart] =
-            overlap::largest(&given.setup.nonmortar, &work.room.seen, &presses, feels, rounding);
+            overlap::largest(&given.setup.nonmortar, &work.room.seen, (&presses, &feels), rounding);
     }
     Ok(all)
 }

@@ -20,13 +20,12 @@ use crate::interface::pairing::seen::{Nearest, Seen};
 const FELT: f64 = 30.0;
 
 /// The largest overlap, and the largest distance at which a node `presses`, of what was looked at. `feels`: weights
-/// know of overlaps. `rounding` does not count.
+/// know of overlaps there, and something presses. `rounding` does not count.
 #[inline(never)]
 pub fn largest(
     one: &Surface,
     seen: &Seen,
-    presses: &dyn Fn(usize) -> bool,
-    feels: bool,
+    (presses, feels): (&dyn Fn(usize) -> bool, &dyn Fn(usize) -> bool),
     rounding: f64,
 ) -> [Largest; 2] {
     let mut found = [Largest::default(); 2];
@@ -37,9 +36,9 @@ pub fn largest(
     let nearer = |n: &Nearest, a: usize| !seen.nearest[a].opposes && seen.nearest[a].gap.abs() < n.gap.abs();
     let hidden = |n: &Nearest| one.facets[n.facet].as_slice().iter().all(|&a| nearer(n, a));
     for n in seen.nearest.iter().filter(|n| n.opposes && n.gap < -n.sagittas[0] && !hidden(n)) {
-        let pressed = one.rows(n.facet).as_slice().iter().any(|&a| presses(a));
-        let round = if pressed { n.sagittas[1] } else { 0.0 };
-        offer(0, n, -n.gap - n.sagittas[0] - round, if pressed && feels { FELT * n.size } else { n.size });
+        let any = |what: &dyn Fn(usize) -> bool| one.rows(n.facet).as_slice().iter().any(|&a| what(a));
+        let round = if any(presses) { n.sagittas[1] } else { 0.0 };
+        offer(0, n, -n.gap - n.sagittas[0] - round, if any(feels) { FELT * n.size } else { n.size });
     }
     let pressing = seen.front.iter().enumerate().filter(|(a, n)| n.gap.is_finite() && presses(*a));
     pressing.for_each(|(_, n)| offer(1, n, n.gap - n.sagittas[0] - n.sagittas[1], n.size));
