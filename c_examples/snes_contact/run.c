@@ -92,6 +92,24 @@ static PetscErrorCode solve_on(Model *model, Run *run, PetscBool *done)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Does the converged step count? newton->why: why not. */
+static PetscErrorCode check(Model *model, Run *run, PetscBool last)
+{
+  Contact       *contact = &model->contact;
+  Newton        *newton  = &model->solve.newton;
+  PetscLogDouble start, end;
+  PetscFunctionBegin;
+  PetscCall(PetscTime(&start));
+  PetscCall(slide_check(contact, &newton->slid, newton->why, sizeof(newton->why)));
+  if (!newton->why[0]) PetscCall(kept_check(contact, newton->why, sizeof(newton->why)));
+  if (!newton->why[0]) PetscCall(unseen_check(contact, last, &run->late, &newton->slid, newton->why, sizeof(newton->why)));
+  if (!newton->why[0]) PetscCall(newly_check(contact, newton->why, sizeof(newton->why)));
+  newton->refused_commit = (PetscBool)(newton->why[0] != 0);
+  PetscCall(PetscTime(&end));
+  contact->seconds_checks += end - start;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Solve at t and commit; `last`: t is the end of the run. */
 static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool asked, PetscBool last, PetscBool *done)
 {
@@ -125,13 +143,7 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
   PetscCall(solve_on(model, run, done));
   if (*done) PetscCall(timed_catch(&model->physics));
   if (*done) PetscCall(remote_check(&model->physics, newton->why, sizeof(newton->why)));
-  if (*done && !newton->why[0]) {
-    PetscCall(slide_check(&model->contact, &newton->slid, newton->why, sizeof(newton->why)));
-    if (!newton->why[0]) PetscCall(kept_check(&model->contact, newton->why, sizeof(newton->why)));
-    if (!newton->why[0]) PetscCall(unseen_check(&model->contact, last, &run->late, &newton->slid, newton->why, sizeof(newton->why)));
-    if (!newton->why[0]) PetscCall(newly_check(&model->contact, newton->why, sizeof(newton->why)));
-    newton->refused_commit = (PetscBool)(newton->why[0] != 0);
-  }
+  if (*done && !newton->why[0]) PetscCall(check(model, run, last));
   if (*done && newton->why[0]) *done = PETSC_FALSE;
   run->converged = *done;
   if (*done) {

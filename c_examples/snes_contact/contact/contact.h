@@ -3,6 +3,7 @@
 #define SNES_CONTACT_CONTACT_H
 #include "physics/physics.h"
 #include <stickslip.h>
+#include "contact/halo.h"
 
 /* Where surfaces are beside their meshes (offsets.c): `offset` of all nodes of the non-mortar side and of some, the factor on them;
  * of round sides their shape. Of the n1 + n2 nodes at home: those that the factor is on, and those of round sides; what `adjust`
@@ -24,29 +25,6 @@ typedef struct {
 
 /* Rigid bodies in a part (rigid_part.c) */
 typedef struct RigidPart RigidPart;
-
-/* What parts may need of the mortar side, and whether they have it (halo.c). Mortar nodes are dealt out to all ranks, which watch
- * them. */
-enum { HALO_BOXES = 32, HALO_PLACES = 3 };
-
-typedef struct {
-  double *watched;         /* 3 a node watched: displacements there */
-  Extent  box[HALO_BOXES]; /* around what the part's facets sweep, with a margin: it has all mortar facets that met a box there */
-} HaloPlace;
-
-typedef struct {
-  PetscReal margin;
-  PetscInt  n_watched;
-  PetscSF   watch;                    /* from the local vectors of all ranks to displacements of the nodes watched */
-  double   *X_watched, *watched_t_n;  /* their coordinates, their displacements at t_n */
-  /* of the part as it is cut */
-  PetscBool whole;                    /* every part has all of the mortar side: there is nothing to look at */
-  PetscSF   nodes;                    /* likewise to the part's non-mortar nodes */
-  double   *X, *x_t_n;                /* their coordinates, and where they were at t_n */
-  PetscInt *box;                      /* of each non-mortar facet */
-  PetscInt  n_places;
-  HaloPlace place[HALO_PLACES];
-} Halo;
 
 /* A rank's part of an interface, with a handle of the library's own (parts.c): the non-mortar nodes that the rank owns, the
  * facets around them as far as these need them, and the mortar facets that may come near. Nodes and facets are numbered as they are here. */
@@ -206,6 +184,7 @@ typedef struct {
   PetscReal  lag_left, lag_part; /* lag.c: what the normals in use were wrong by when last looked at; the part of the way that they went then */
   char       refusal[1024]; /* the library's last message, if it refused an evaluation */
   PetscLogDouble seconds_forces, seconds_tangent;
+  PetscLogDouble seconds_checks; /* of what forces and weighted gaps do not know: is the contact in equilibrium, sound, seen, in time? */
 } Contact;
 
 /* contact_scene.c */
