@@ -67,7 +67,10 @@ fn a_tip_within_a_coarse_facet_is_found_although_its_node_gaps_are_open() {
     assert!(answers.iter().all(|r| r.gap_normal > 0.0), "every weighted gap is open");
     let found = measured(&one, &two, *contact.options(), 0.0, 0.0).penetration;
     // But for the sagittas of its facets, h^2 / 4 along their slopes.
-    assert!(found.value < 0.02 && found.value > 0.02 - 0.3 / 64.0 && found.scale >= 1.0 / 8.0 && found.scale < 0.13, "{found:?}");
+    assert!(
+        found.value < 0.02 && found.value > 0.02 - 0.3 / 64.0 && found.scale >= 1.0 / 8.0 && found.scale < 0.13,
+        "{found:?}"
+    );
 }
 
 #[test]
