@@ -80,7 +80,7 @@ static PetscErrorCode solve_on(Model *model, Run *run, PetscBool *done)
   const PetscInt iterations = newton->iterations;
   PetscBool      lags       = PETSC_FALSE;
   PetscFunctionBegin;
-  if (*done) PetscCall(lag_told(&model->contact, &lags));
+  if (*done) PetscCall(lag_shows(&model->contact, &lags));
   for (int k = 0; lags && *done; k++) {
     PetscCall(lag_take_normals(&model->contact, (PetscBool)(k < CORRECTIONS), &lags));
     if (!lags) break;

@@ -447,7 +447,7 @@ PetscErrorCode unseen_check(Contact *contact, PetscBool last, PetscBool *late, P
 PetscErrorCode unseen_accept(Contact *contact);
 PetscErrorCode unseen_end(const Contact *contact);
 /* lag.c: a converged step is solved again with the normals that it has reached */
-PetscErrorCode lag_told(const Contact *contact, PetscBool *told);
+PetscErrorCode lag_shows(const Contact *contact, PetscBool *shows);
 PetscErrorCode lag_take_normals(Contact *contact, PetscBool may, PetscBool *changed);
 PetscErrorCode lag_set(const Interface *interface, stickslip_interface *handle, int32_t *refused);
 PetscErrorCode lag_forget(Contact *contact);

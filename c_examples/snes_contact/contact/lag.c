@@ -24,11 +24,11 @@ static PetscBool may_be_corrected(const Contact *contact, const Interface *inter
 }
 
 /* At a converged state that the interfaces have been judged at. */
-PetscErrorCode lag_told(const Contact *contact, PetscBool *told)
+PetscErrorCode lag_shows(const Contact *contact, PetscBool *shows)
 {
   PetscReal forces[2];
   PetscFunctionBegin;
-  *told = PETSC_FALSE;
+  *shows = PETSC_FALSE;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     const Interface             *interface = &contact->interfaces[i];
     const stickslip_equilibrium *e         = &interface->equilibrium;
@@ -36,9 +36,9 @@ PetscErrorCode lag_told(const Contact *contact, PetscBool *told)
     forces[0] = interface->part.handle ? e->lag_force : 0;
     forces[1] = interface->part.handle ? e->lag_force_scale : 0;
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, forces, 2, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
-    *told = (PetscBool)(*told || forces[0] > LAGS * forces[1] || (interface->part.handle && e->lag > interface->lag.most * e->traction_scale));
+    *shows = (PetscBool)(*shows || forces[0] > LAGS * forces[1] || (interface->part.handle && e->lag > interface->lag.most * e->traction_scale));
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, told, 1, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, shows, 1, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
