@@ -111,6 +111,8 @@ aids:
 	@$(MAKE) --no-print-directory cmake-build
 	$(SAY) "Scenes with one convergence aid switched off at a time"
 	@$(PYTHON) studies/aids/aids.py --build $(BUILD)
+	$(SAY) "What it costs to ask whether a step is what it seems"
+	@$(PYTHON) studies/aids/checks.py --build $(BUILD)
 
 study:
 	@.ci/setup demo

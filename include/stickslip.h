@@ -1134,17 +1134,18 @@ typedef struct stickslip_equilibrium {
   double lag_force_scale;
   /// Output: how far a node of either side is really in the other body, whatever the weighted gaps say, beyond what the sagittas of
   /// curved facets are; the largest over penetration_scale. No violation; 0 of tied surfaces. Facets that are coarser than the contact
-  /// do not feel it, and overlaps that count as closed press nothing: beyond 0.03 of its scale tell it, beyond 0.1 the
-  /// step is wrong. Facets that are finer than the contact as non-mortar side, or STICKSLIP_DECISION_POINTS, see more [L].
+  /// do not feel it, and overlaps that count as closed press nothing: beyond 0.003 of its scale tell it, and end no run beyond 0.02;
+  /// beyond 0.1 an interface that has pressed before has lost its contact. Facets that are finer than the contact as non-mortar side, or STICKSLIP_DECISION_POINTS, see more [L].
   double penetration;
-  /// Output: what to compare it with: the longest edge of the smaller facet there times 10 traction_scale / modulus, at most 1 and at
-  /// least 0.1; without a modulus 1, or 0.1 where nothing presses [L].
+  /// Output: what to compare it with: the longest edge of the smaller facet there; 30 of them where nodes of the facet press and weights
+  /// are those of now or of t_n, for a corner that presses lies two thirds of an edge deep however fine the facets are [L].
   double penetration_scale;
   /// Output: the non-mortar node nearest to penetration.
   int64_t penetration_node;
-  /// Output: how far apart the surfaces really are all around a node that presses, in the same way; the largest over apart_scale [L].
+  /// Output: how far apart the surfaces really are all around a node that presses, in the same way; the largest over apart_scale. Beyond 0.1 of it the
+  /// step is wrong [L].
   double apart;
-  /// Output: what to compare it with, as penetration_scale [L].
+  /// Output: what to compare it with: that longest edge [L].
   double apart_scale;
   /// Output: the node of apart.
   int64_t apart_node;

@@ -3,6 +3,9 @@
 #include "physics/dynamics.h"
 #include "solve/redundant.h"
 
+/* Normals of a step are found anew so often at most: each time they change by some per cent of the last change. */
+enum { CORRECTIONS = 8 };
+
 static PetscErrorCode run_create(Model *model, Run *run)
 {
   PetscFunctionBegin;
@@ -70,6 +73,43 @@ static PetscErrorCode solve_determined(Model *model, Run *run, PetscBool *done)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The step has converged: again with the normals that it has reached, until they stay. */
+static PetscErrorCode solve_on(Model *model, Run *run, PetscBool *done)
+{
+  Newton        *newton     = &model->solve.newton;
+  const PetscInt iterations = newton->iterations;
+  PetscBool      lags       = PETSC_FALSE;
+  PetscFunctionBegin;
+  if (*done) PetscCall(lag_shows(&model->contact, &lags));
+  for (int k = 0; lags && *done; k++) {
+    PetscCall(lag_take_normals(&model->contact, (PetscBool)(k < CORRECTIONS), &lags));
+    if (!lags) break;
+    newton->goes_on = PETSC_TRUE;
+    PetscCall(solve_determined(model, run, done));
+    newton->goes_on = PETSC_FALSE;
+  }
+  if (*done) newton->iterations = iterations; /* what the length of the next step goes by */
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Does the converged step count? newton->why: why not. */
+static PetscErrorCode check(Model *model, Run *run, PetscBool last)
+{
+  Contact       *contact = &model->contact;
+  Newton        *newton  = &model->solve.newton;
+  PetscLogDouble start, end;
+  PetscFunctionBegin;
+  PetscCall(PetscTime(&start));
+  PetscCall(slide_check(contact, &newton->slid, newton->why, sizeof(newton->why)));
+  if (!newton->why[0]) PetscCall(kept_check(contact, newton->why, sizeof(newton->why)));
+  if (!newton->why[0]) PetscCall(unseen_check(contact, last, &run->late, &newton->slid, newton->why, sizeof(newton->why)));
+  if (!newton->why[0]) PetscCall(newly_check(contact, newton->why, sizeof(newton->why)));
+  newton->refused_commit = (PetscBool)(newton->why[0] != 0);
+  PetscCall(PetscTime(&end));
+  contact->seconds_checks += end - start;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Solve at t and commit; `last`: t is the end of the run. */
 static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool asked, PetscBool last, PetscBool *done)
 {
@@ -100,15 +140,10 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(solve_determined(model, run, done));
+  PetscCall(solve_on(model, run, done));
   if (*done) PetscCall(timed_catch(&model->physics));
   if (*done) PetscCall(remote_check(&model->physics, newton->why, sizeof(newton->why)));
-  if (*done && !newton->why[0]) {
-    PetscCall(slide_check(&model->contact, &newton->slid, newton->why, sizeof(newton->why)));
-    if (!newton->why[0]) PetscCall(kept_check(&model->contact, newton->why, sizeof(newton->why)));
-    if (!newton->why[0]) PetscCall(unseen_check(&model->contact, &newton->slid, newton->why, sizeof(newton->why)));
-    if (!newton->why[0]) PetscCall(newly_check(&model->contact, newton->why, sizeof(newton->why)));
-    newton->refused_commit = (PetscBool)(newton->why[0] != 0);
-  }
+  if (*done && !newton->why[0]) PetscCall(check(model, run, last));
   if (*done && newton->why[0]) *done = PETSC_FALSE;
   run->converged = *done;
   if (*done) {
@@ -124,6 +159,7 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
                               model->contact.refusal));
     }
   }
+  PetscCall(lag_forget(&model->contact));
   if (!*done) PetscCall(summary_failed_attempt(&model->output, run->summary, run->past.t_last));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -79,17 +79,18 @@ pub struct stickslip_equilibrium {
     pub lag_force_scale: f64,
     /// Output: how far a node of either side is really in the other body, whatever the weighted gaps say, beyond what the sagittas of
     /// curved facets are; the largest over penetration_scale. No violation; 0 of tied surfaces. Facets that are coarser than the contact
-    /// do not feel it, and overlaps that count as closed press nothing: beyond 0.03 of its scale tell it, beyond 0.1 the
-    /// step is wrong. Facets that are finer than the contact as non-mortar side, or STICKSLIP_DECISION_POINTS, see more [L].
+    /// do not feel it, and overlaps that count as closed press nothing: beyond 0.003 of its scale tell it, and end no run beyond 0.02;
+    /// beyond 0.1 an interface that has pressed before has lost its contact. Facets that are finer than the contact as non-mortar side, or STICKSLIP_DECISION_POINTS, see more [L].
     pub penetration: f64,
-    /// Output: what to compare it with: the longest edge of the smaller facet there times 10 traction_scale / modulus, at most 1 and at
-    /// least 0.1; without a modulus 1, or 0.1 where nothing presses [L].
+    /// Output: what to compare it with: the longest edge of the smaller facet there; 30 of them where nodes of the facet press and weights
+    /// are those of now or of t_n, for a corner that presses lies two thirds of an edge deep however fine the facets are [L].
     pub penetration_scale: f64,
     /// Output: the non-mortar node nearest to penetration.
     pub penetration_node: i64,
-    /// Output: how far apart the surfaces really are all around a node that presses, in the same way; the largest over apart_scale [L].
+    /// Output: how far apart the surfaces really are all around a node that presses, in the same way; the largest over apart_scale. Beyond 0.1 of it the
+    /// step is wrong [L].
     pub apart: f64,
-    /// Output: what to compare it with, as penetration_scale [L].
+    /// Output: what to compare it with: that longest edge [L].
     pub apart_scale: f64,
     /// Output: the node of apart.
     pub apart_node: i64,

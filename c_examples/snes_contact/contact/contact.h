@@ -3,6 +3,7 @@
 #define SNES_CONTACT_CONTACT_H
 #include "physics/physics.h"
 #include <stickslip.h>
+#include "contact/halo.h"
 
 /* Where surfaces are beside their meshes (offsets.c): `offset` of all nodes of the non-mortar side and of some, the factor on them;
  * of round sides their shape. Of the n1 + n2 nodes at home: those that the factor is on, and those of round sides; what `adjust`
@@ -24,29 +25,6 @@ typedef struct {
 
 /* Rigid bodies in a part (rigid_part.c) */
 typedef struct RigidPart RigidPart;
-
-/* What parts may need of the mortar side, and whether they have it (halo.c). Mortar nodes are dealt out to all ranks, which watch
- * them. */
-enum { HALO_BOXES = 32, HALO_PLACES = 3 };
-
-typedef struct {
-  double *watched;         /* 3 a node watched: displacements there */
-  Extent  box[HALO_BOXES]; /* around what the part's facets sweep, with a margin: it has all mortar facets that met a box there */
-} HaloPlace;
-
-typedef struct {
-  PetscReal margin;
-  PetscInt  n_watched;
-  PetscSF   watch;                    /* from the local vectors of all ranks to displacements of the nodes watched */
-  double   *X_watched, *watched_t_n;  /* their coordinates, their displacements at t_n */
-  /* of the part as it is cut */
-  PetscBool whole;                    /* every part has all of the mortar side: there is nothing to look at */
-  PetscSF   nodes;                    /* likewise to the part's non-mortar nodes */
-  double   *X, *x_t_n;                /* their coordinates, and where they were at t_n */
-  PetscInt *box;                      /* of each non-mortar facet */
-  PetscInt  n_places;
-  HaloPlace place[HALO_PLACES];
-} Halo;
 
 /* A rank's part of an interface, with a handle of the library's own (parts.c): the non-mortar nodes that the rank owns, the
  * facets around them as far as these need them, and the mortar facets that may come near. Nodes and facets are numbered as they are here. */
@@ -169,6 +147,9 @@ typedef struct {
   Frozen                sunk;                 /* likewise: what it has grown by since */
   Frozen                overlap, apart, lag; /* over the library's scales, see unseen.c */
   PetscReal             lag_force;           /* of all nodes, over what they press with */
+  PetscBool             lag_corrects;        /* a step that lags is solved again: lag.c */
+  double               *normals, *lag_change; /* with these, at home, `dimension` numbers each; NULL: those of t_n serve. 3 each: those of
+                                                 now less them, when they were found */
   PetscReal             depth;               /* how far the bodies overlap there */
   PetscReal             tied_gap; /* of tied surfaces that are farther apart at the start than is told (kept.c); 0: none are */
 } Interface;
@@ -200,8 +181,10 @@ typedef struct {
   PetscBool  reduced;   /* the solver takes its reduced form: E_L - I, E_R - I, Q, s D Q, as REDUCTION_... */
   Mat        reduction[N_REDUCTION];
   Settling   settling;
+  PetscReal  lag_left, lag_part; /* lag.c: what the normals in use were wrong by when last looked at; the part of the way that they went then */
   char       refusal[1024]; /* the library's last message, if it refused an evaluation */
   PetscLogDouble seconds_forces, seconds_tangent;
+  PetscLogDouble seconds_checks; /* of what forces and weighted gaps do not know: is the contact in equilibrium, sound, seen, in time? */
 } Contact;
 
 /* contact_scene.c */
@@ -460,9 +443,14 @@ PetscErrorCode slide_accept(Contact *contact);
 PetscErrorCode slide_find(const Interface *interface, const Mesh *mesh, double found, int64_t node, Frozen *frozen, PetscReal where[4]);
 
 /* unseen.c */
-PetscErrorCode unseen_check(Contact *contact, PetscReal *ratio, char why[], size_t length);
+PetscErrorCode unseen_check(Contact *contact, PetscBool last, PetscBool *late, PetscReal *ratio, char why[], size_t length);
 PetscErrorCode unseen_accept(Contact *contact);
 PetscErrorCode unseen_end(const Contact *contact);
+/* lag.c: a converged step is solved again with the normals that it has reached */
+PetscErrorCode lag_shows(const Contact *contact, PetscBool *shows);
+PetscErrorCode lag_take_normals(Contact *contact, PetscBool may, PetscBool *changed);
+PetscErrorCode lag_set(const Interface *interface, stickslip_interface *handle, int32_t *refused);
+PetscErrorCode lag_forget(Contact *contact);
 /* kept.c: what persistent weights leave of overlaps: of that at the start, and across what gap surfaces are tied, after contact_gather(); by how
  * much overlaps have grown since, at a converged state: why the step does not count; and told, where it does */
 PetscErrorCode kept_tell(const Contact *contact, Interface *interface);

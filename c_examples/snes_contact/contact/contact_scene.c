@@ -175,6 +175,7 @@ static void read_method(Scene *scene, Interface *interface)
   interface->slide.most      = SLIDE_MAX;
   interface->turn.most       = TURN_TOLD;
   interface->lag.most        = LAG_MAX;
+  interface->lag_corrects    = PETSC_TRUE;
   scene_string(scene, name, "slip", word, sizeof(word));
   if (!strcmp(word, "seed")) scene_fail(scene, name, "slip", "'seed' is called 'paper' now.");
   scene_choice(scene, name, "slip", slips, &slip);
@@ -193,6 +194,8 @@ static void read_method(Scene *scene, Interface *interface)
   scene_real(scene, name, "turn_max", &turn_max);
   scene_real(scene, name, "slide_max", &interface->slide.most);
   scene_real(scene, name, "lag_max", &interface->lag.most);
+  interface->lag_corrects = (PetscBool)(interface->lag.most < 1);
+  scene_bool(scene, name, "lag_corrected", &interface->lag_corrects);
   if (scene_has(scene, name, "augmentation") && augmentation <= 0)
     scene_fail(scene, name, "augmentation", "it must be positive.");
   if (scene_has(scene, name, "modulus") && modulus <= 0) scene_fail(scene, name, "modulus", "it must be positive.");

@@ -14,6 +14,15 @@ PetscBool newly_rubs(const stickslip_options *options)
   return (PetscBool)(cone && options->mu > 0);
 }
 
+/* Has the node a copy, on another face of a sharp edge or corner, that is in contact, too? Then it has no friction at all, be it new or not. */
+static PetscBool has_copy(const ContactPart *part, const int32_t state[], PetscInt a)
+{
+  for (PetscInt b = 0; b < part->n1; b++) {
+    if (b != a && part->vertices[b] == part->vertices[a] && state[b] != STICKSLIP_STATE_GAP) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
 /* Adds a part's normal forces to sums[0], to sums[1] those of nodes that slip without friction. */
 static PetscErrorCode add_forces(const ContactPart *part, PetscReal sums[2])
 {
@@ -38,7 +47,8 @@ static PetscErrorCode add_forces(const ContactPart *part, PetscReal sums[2])
       removed += (part->removed[a] >> k) & 1;
     if (part->owned[a] != STICKSLIP_NODE_OWN || wanted.state[a] == STICKSLIP_STATE_GAP || removed >= d - 1) continue;
     sums[0] += PetscAbsReal(p) * wanted.coverage[a];
-    if (wanted.state[a] == STICKSLIP_STATE_SLIP && across <= ROUNDING * PetscAbsReal(p)) sums[1] += PetscAbsReal(p) * wanted.coverage[a];
+    if (wanted.state[a] == STICKSLIP_STATE_SLIP && across <= ROUNDING * PetscAbsReal(p) && !has_copy(part, wanted.state, a))
+      sums[1] += PetscAbsReal(p) * wanted.coverage[a];
   }
   PetscCall(PetscFree4(wanted.state, wanted.traction, wanted.normal, wanted.coverage));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -90,6 +90,11 @@ static PetscErrorCode revive(Contact *contact, Interface *interface, int32_t *re
   if (part->n1) PetscCall(part_handle(part, &interface->options, &part->handle, refused));
   PetscCall(contact_fetch(part->sf, contact->committed, part->gathered));
   contact_positions(part);
+  if (interface->normals) {
+    int32_t status;
+    PetscCall(lag_set(interface, *refused ? NULL : part->handle, &status));
+    if (!*refused) *refused = status;
+  }
   if (!part->handle || *refused) PetscFunctionReturn(PETSC_SUCCESS);
   *refused = offsets_set(interface, part->handle, contact->t_committed);
   if (!*refused) *refused = law_set(interface, part->handle);

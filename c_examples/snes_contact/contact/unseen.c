@@ -1,14 +1,17 @@
 /* What a converged step may be wrong by although its forces balance and its contact is in equilibrium: bodies that really overlap, or
  * are apart where they press, which the means of gaps over facets do not see, and with normals of t_n a pressure that lags behind the
- * surface. The library measures it (stickslip_equilibrium); what is done about it is said here. A step that is too far off
- * does not count: it is cut back, for shorter ones turn less and end before the bodies are deep in each other. */
+ * surface, unless lag.c has found others. The library measures it (stickslip_equilibrium); what is done about it is said here. A step
+ * that is too far off does not count: it is cut back, for shorter ones turn less. */
 #include "contact/contact.h"
 
-/* An overlap, over the library's scale, that is told, and one with which no step counts: a hundredth and a tenth of a facet where the
- * pressure is large; where nothing presses, less. */
-static const PetscReal OVERLAP_TOLD = 0.03, OVERLAP_MOST = 0.1;
-/* Before anything has pressed the scale is a tenth of a facet: a tip may dent one by so much before that feels it. */
-static const PetscReal OVERLAP_FIRST = 1;
+/* An overlap, over the library's scale, that is told. The scale is a facet's edge where nothing feels the overlap, which may be all that the
+ * bodies have approached by; where it is felt, thirty of them. */
+static const PetscReal OVERLAP_TOLD = 0.003;
+/* With more no run ends. On its way in a tip dents facets until these feel it, and no shorter step keeps it from that. */
+static const PetscReal OVERLAP_END = 0.02;
+/* With more no step counts where the interface has pressed before: it has lost its contact. So it is where nodes press so far from
+ * anything. */
+static const PetscReal OVERLAP_MOST = 0.1;
 /* A lag that is told, of a node over the largest traction or of all nodes over their force; with which no step counts is `lag_max`. */
 static const PetscReal LAG_TOLD = 0.01;
 /* One node in contact is no news of a surface of so few. */
@@ -28,8 +31,9 @@ static const char *remedy(const Interface *interface)
          "`decision: points`";
 }
 
-static PetscErrorCode measure(Interface *interface, const Mesh *mesh)
+static PetscErrorCode measure(const Contact *contact, Interface *interface)
 {
+  const Mesh                  *mesh      = contact->mesh;
   const stickslip_equilibrium *e         = &interface->equilibrium;
   Frozen                      *overlap   = &interface->overlap, *apart = &interface->apart, *lag = &interface->lag;
   PetscReal                    where[4]  = {0, 0, 0, e->penetration}, there[4] = {0, 0, 0, e->apart}, at[4] = {0};
@@ -41,9 +45,9 @@ static PetscErrorCode measure(Interface *interface, const Mesh *mesh)
   PetscCall(slide_find(interface, mesh, e->lag > 0 ? e->lag / traction : 0, e->lag_node, lag, at));
   interface->depth = where[3];
   force[0]         = interface->part.handle ? e->lag_force : 0;
-  force[1]         = interface->part.handle ? e->lag_force_scale : 0;
+  force[1]         = interface->part.handle ? e->lag_force_scale : 0; /* 0 with the host's normals */
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, force, 2, MPIU_REAL, MPI_SUM, PETSC_COMM_WORLD));
-  interface->lag_force = force[1] > 0 ? force[0] / force[1] : 0;
+  interface->lag_force = interface->normals ? contact->lag_left : force[1] > 0 ? force[0] / force[1] : 0;
   PetscCall(PetscSNPrintf(overlap->words, sizeof(overlap->words), "the bodies of %s overlap by %.2g at (%g, %g, %g)", interface->name,
                           (double)where[3], (double)where[0], (double)where[1], (double)where[2]));
   PetscCall(PetscSNPrintf(apart->words, sizeof(apart->words), "the bodies of %s press each other at (%g, %g, %g) although they are %.2g apart",
@@ -55,21 +59,29 @@ static PetscErrorCode measure(Interface *interface, const Mesh *mesh)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What an overlap may be; `last`: the run would end with this step. */
+static PetscReal overlap_most(const Interface *interface, PetscBool last)
+{
+  if (last) return OVERLAP_END;
+  return interface->largest_traction > 0 ? OVERLAP_MOST : PETSC_MAX_REAL;
+}
+
 /* At a converged state that the interfaces have been judged at. `why`, where it does not count; `ratio`: at least how many times too
- * long the step was. Weights of the reference are for displacements too small to be seen: what they overlap by is told alone. So it is with
- * `dynamics`: no shorter step stops a tip that dents a facet before that presses, and what sinks is stopped by kept.c. */
-PetscErrorCode unseen_check(Contact *contact, PetscReal *ratio, char why[], size_t length)
+ * long the step was; `late`: no shorter one helps. Weights of the reference are for displacements too small to be seen: what they overlap by is told
+ * alone. So it is with `dynamics`: no shorter step stops a tip that dents a facet before that presses, and what sinks is stopped by kept.c. */
+PetscErrorCode unseen_check(Contact *contact, PetscBool last, PetscBool *late, PetscReal *ratio, char why[], size_t length)
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    Interface    *interface = &contact->interfaces[i];
-    const PetscBool told    = (PetscBool)(contact->physics->dynamics || interface->options.weights == STICKSLIP_WEIGHTS_REFERENCE);
-    PetscReal     lags;
-    const Frozen *wrong[]   = {&interface->overlap, &interface->apart};
-    PetscCall(measure(interface, contact->mesh));
-    for (int k = 0; k < 2; k++) {
-      if (wrong[k]->amount > (interface->largest_traction > 0 ? OVERLAP_MOST : OVERLAP_FIRST) && !told)
-        PetscCall(PetscSNPrintf(why, length, "converged, but %s. %s", wrong[k]->words, remedy(interface)));
+    Interface      *interface = &contact->interfaces[i];
+    const PetscBool told      = (PetscBool)(contact->physics->dynamics || interface->options.weights == STICKSLIP_WEIGHTS_REFERENCE);
+    PetscReal       lags;
+    PetscCall(measure(contact, interface));
+    if (interface->apart.amount > OVERLAP_MOST && !told)
+      PetscCall(PetscSNPrintf(why, length, "converged, but %s. %s", interface->apart.words, remedy(interface)));
+    if (interface->overlap.amount > overlap_most(interface, last) && !told) {
+      PetscCall(PetscSNPrintf(why, length, "converged, but %s. %s", interface->overlap.words, remedy(interface)));
+      *late = last;
     }
     lags   = PetscMax(interface->lag.amount, interface->lag_force) / interface->lag.most;
     *ratio = PetscMax(*ratio, LAG_MARGIN * lags);

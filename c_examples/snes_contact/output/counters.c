@@ -162,6 +162,7 @@ PetscErrorCode summary_counters(Output *output, cJSON *root)
   cJSON_AddNumberToObject(seconds, "contact_assembly", sum.seconds_assembly);
   cJSON_AddNumberToObject(seconds, "contact_forces", contact->seconds_forces);
   cJSON_AddNumberToObject(seconds, "contact_tangent", contact->seconds_tangent);
+  cJSON_AddNumberToObject(seconds, "checks", contact->seconds_checks);
   cJSON_AddNumberToObject(seconds, "bulk_assembly", output->physics->seconds);
   cJSON_AddNumberToObject(seconds, "linear_solve", output->solve->seconds);
   cJSON_AddNumberToObject(seconds, "total", now - output->started);

@@ -273,7 +273,7 @@ static PetscErrorCode attempt(Solve *solve, int k, const Past *past, Vec x, Pets
   cJSON_Delete(newton->state_changes);
   newton->state_changes = cJSON_CreateArray();
   newton->factor                                    = ATTEMPTS[k].factor;
-  PetscCall(condensed_begin(contact));
+  if (!newton->goes_on) PetscCall(condensed_begin(contact));
   if (k == SETTLING) {
     PetscCall(normals_use(contact, STICKSLIP_NORMALS_COMMITTED));
     PetscCall(solve_from(solve, x, &reason));
@@ -315,12 +315,20 @@ static PetscErrorCode make_bare(const Solve *solve, Vec x, PetscBool *any)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode evaluate_there(Solve *solve, Vec x)
+{
+  Vec r;
+  PetscFunctionBegin;
+  PetscCall(SNESGetFunction(solve->snes, &r, NULL, NULL));
+  PetscCall(SNESComputeFunction(solve->snes, x, r));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode newton_solve(Solve *solve, Past *past, Vec x, PetscBool *converged)
 {
   Newton         *newton       = &solve->newton;
   PetscBool       extrapolates, closing_first, laid, loose, at_start = PETSC_TRUE;
   int             lost = -1; /* the first attempt that let a body go */
-  Vec             r;
 
   PetscFunctionBegin;
   newton->iterations = 0;
@@ -329,6 +337,11 @@ PetscErrorCode newton_solve(Solve *solve, Past *past, Vec x, PetscBool *converge
   PetscCall(progress_begin(solve));
   *converged         = PETSC_FALSE;
   closing_begin(solve, PETSC_FALSE);
+  if (newton->goes_on) {
+    PetscCall(attempt(solve, FULL, past, x, converged));
+    if (*converged) PetscCall(evaluate_there(solve, x));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(settle_loose(solve, past, &laid));
   extrapolates = first_iterate_extrapolates(solve, past);
   PetscCall(first_iterate(solve, past, extrapolates, x));
@@ -367,8 +380,6 @@ PetscErrorCode newton_solve(Solve *solve, Past *past, Vec x, PetscBool *converge
     if (lost == BARE) PetscCall(make_bare(solve, x, &any));
     PetscCall(attempt(solve, lost, past, x, converged));
   }
-  if (!*converged) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SNESGetFunction(solve->snes, &r, NULL, NULL));
-  PetscCall(SNESComputeFunction(solve->snes, x, r));
+  if (*converged) PetscCall(evaluate_there(solve, x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

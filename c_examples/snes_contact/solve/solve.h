@@ -38,6 +38,7 @@ typedef struct Cycling Cycling;
 /* Newton's method on one step (convergence.c, newton.c) */
 typedef struct {
   PetscBool     fixed_line_search, fixed_max_it; /* the user chose them */
+  PetscBool     goes_on;           /* the step has converged, and is solved again from there (lag.c) */
   PetscReal     factor;            /* for the augmentation of nodes that cycle */
   PetscReal     soft;              /* what this attempt begins with, over the scene's augmentation */
   PetscInt      n_changes;         /* of the augmentation in this attempt */

@@ -15,7 +15,7 @@ _TYPES = {"double": np.float64, "int32_t": np.int32, "int64_t": np.int64}
 # No sentence of the library comes near it.
 _TEXT = 1 << 16
 # Parts of their scales from which overlaps and lags are told, and from which no step counts.
-_OVERLAP, _LAG = (0.03, 0.1), (0.01, 0.1)
+_OVERLAP, _LAG = (0.003, 0.1), (0.01, 0.1)
 
 
 def _members(name: str):

@@ -210,9 +210,12 @@ pub fn equilibrium<const N: usize>(
             let acts = given.setup.has_multiplier(a) && given.setup.nodes.acts(a);
             acts && lambda[a].norm() * (sums[a].coverage / areas[a]).min(1.0) > least
         };
-        let scales = Scales { traction, ..*scales };
+        // Weights of the reference do not know where the surfaces are, and persistent ones take overlaps for closed.
+        let knows = matches!(options.weights, Weights::Current | Weights::Committed);
+        // A node that another handle speaks for presses, too.
+        let feels = |a: usize| knows && lambda[a].norm() > least;
         [all.penetration, all.apart] =
-            overlap::largest(&given.setup.nonmortar, &work.room.seen, &presses, &scales, rounding);
+            overlap::largest(&given.setup.nonmortar, &work.room.seen, (&presses, &feels), rounding);
     }
     Ok(all)
 }

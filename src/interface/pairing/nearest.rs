@@ -72,7 +72,7 @@ pub fn look((one, two): (&Surface, &Surface), (x1, x2): (&[Vec3], &[Vec3]), work
             continue;
         }
         let under = Over::new(&facet, &plane);
-        let reach = edge.min(two.longest_edge) + under.warp();
+        let reach = edge + under.warp();
         let middle = plane.e.dot(&plane.origin);
         let slab = Slab { direction: plane.e, low: middle - reach, high: middle + reach };
         let prism = Prism::over(facet.points(), &plane, OUTSIDE * edge).within([slab]);
