@@ -146,7 +146,7 @@ impl<'a, const N: usize> Here<'a, N> {
             nodes: work.nodes,
             active: self.cache.active().filter(|_| differentiates),
             motion,
-            turns: Turns::at(given, (x1, lambda), (pairs, &answers.sums, responses), normals, scale, work.turns)?,
+            turns: Turns::at(given, (x1, lambda), (pairs, &answers.sums, responses), normals, &scale, work.turns)?,
         };
         while work.rooms.len() < options.threads {
             work.rooms.store(ThreadRoom::default())?;

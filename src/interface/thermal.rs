@@ -113,6 +113,6 @@ impl<const N: usize> Contact<N> {
     ) -> Result<Option<Turns<'a, N>>> {
         let answers = self.cache.answers();
         let pairs = self.cache.weighted(self.setup.surfaces(), &self.step.history);
-        Turns::at(given, at, (pairs, &answers.sums, &answers.responses), &given.normals()?, |_| 1.0, room)
+        Turns::at(given, at, (pairs, &answers.sums, &answers.responses), &given.normals()?, &|_| 1.0, room)
     }
 }

@@ -113,8 +113,11 @@ impl ParentFacet {
         let rows = [0, 1, 2].map(|i| across.row(i).transpose());
         let by = [rows.map(|row| b.cross(&row)), rows.map(|row| row.cross(&a))]
             .map(|by| Mat3::from_columns(&by).transpose());
-        let is_line = self.parent.corners() == 2;
-        std::array::from_fn(|l| by[0] * slopes[0][l] + by[1] * if is_line { 0.0 } else { slopes[1][l] })
+        let (is_line, mut d) = (self.parent.corners() == 2, [Mat3::zeros(); MAX_PARENT_NODES]);
+        for l in 0..rolled(self.parent.n) {
+            d[l] = by[0] * slopes[0][l] + by[1] * if is_line { 0.0 } else { slopes[1][l] };
+        }
+        d
     }
 
     /// int N_A da of the multipliers over the whole facet, covered or not [L^2].

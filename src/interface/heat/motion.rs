@@ -15,7 +15,7 @@ use crate::interface::stages::respond::Responses;
 use crate::interface::tangent::blocks::{Room, of_facets};
 use crate::interface::tangent::derivatives::PairDerivatives;
 use crate::interface::tangent::emission::{Blocks, Directions, Emitter, MortarBlock, Place, Span, Weights};
-use crate::interface::tangent::frame;
+use crate::interface::tangent::frame::FacetPair;
 use crate::interface::tangent::parents::{self, ParentRoom};
 use crate::interface::tangent::task::{Numbers, Task};
 use crate::interface::tangent::union::{Pairs, UnionPair, Walk};
@@ -237,7 +237,8 @@ fn each_over_surface<const N: usize>(
         motion.clear();
         motion.store(FrameMotion::default())?;
         let motion = &mut motion[0];
-        frame::add_motion(given, (f, active), (&surface, given.setup.options.rule), motion)?;
+        let at = FacetPair { one, basis: given.setup.options.basis, active, pair: &of_facet[0] };
+        at.add_motion((&surface, given.setup.options.rule), motion)?;
         to.begin(own, multipliers, (0..points).map(|c| one.len() + two.facets[0].nodes[c]))?;
         let n = own.len();
         for a in 0..multipliers {
@@ -249,15 +250,9 @@ fn each_over_surface<const N: usize>(
                 *to.slope(a, n + k, n + d) = -motion.by_frame[a][k][d];
             }
         }
-        if let Some(basis) = frame::basis(given, active, &of_facet[0])? {
-            let weight = |a: usize, k: usize| frame::integrated(given, active, &of_facet[0], (a, k));
-            let shares = corner_shares(frame::parent(one, f));
-            make_dual(
-                &basis,
-                weight,
-                |a, b, c| if c < n { motion.mass((a, b, c), &shares) } else { Vec3::zeros() },
-                to,
-            );
+        if let Some(basis) = at.basis()? {
+            let shares = corner_shares(at.parent());
+            make_dual((&basis, at), |a, b, c| if c < n { motion.mass((a, b, c), &shares) } else { Vec3::zeros() }, to);
         }
         take(to)?;
     }
@@ -265,16 +260,11 @@ fn each_over_surface<const N: usize>(
 }
 
 /// Makes of the derivatives of weights those of dual ones, n^d_A = m_A (m^-1 n)_A, with Dm_AB by each node. The facet is covered wholly.
-fn make_dual(
-    basis: &DualBasis,
-    weight: impl Fn(usize, usize) -> f64,
-    mass: impl Fn(usize, usize, usize) -> Vec3,
-    to: &mut FacetWeights,
-) {
+fn make_dual((basis, at): (&DualBasis, FacetPair), mass: impl Fn(usize, usize, usize) -> Vec3, to: &mut FacetWeights) {
     let (coefficients, m, n) = (basis.coefficients(), to.multipliers, to.nodes.len());
     let inverse = |a: usize, b: usize| coefficients[a][b] / basis.areas[a];
     for (k, c) in (0..n).flat_map(|k| (0..n).map(move |c| (k, c))) {
-        let solved = |a: usize| (0..m).map(|b| inverse(a, b) * weight(b, k)).sum::<f64>();
+        let solved = |a: usize| (0..m).map(|b| inverse(a, b) * at.integrated(b, k)).sum::<f64>();
         let rest: [Vec3; MAX_CORNERS] = std::array::from_fn(|b| {
             if b < m {
                 *to.slope(b, k, c) - (0..m).map(|e| mass(b, e, c) * solved(e)).sum::<Vec3>()

@@ -100,6 +100,7 @@ pub fn tangent<const N: usize>(
 
 /// Puts what the derivatives of the weights make of temperatures, areas and gaps into the rows; gives what they do to the heat
 /// of the nodes at fixed flows.
+#[inline(never)] // likewise
 fn differentiate<const N: usize>(
     at: &Place<N>,
     (rows, flows): (&mut [Row], &[(HeatNode, HeatFlow)]),
@@ -265,6 +266,7 @@ impl<const N: usize> Traction<N> {
 }
 
 /// What node A's heat depends on.
+#[inline(never)] // likewise
 fn node<const N: usize>(
     at: &Place<N>,
     a: usize,

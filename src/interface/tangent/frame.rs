@@ -51,7 +51,7 @@ impl<'a, const N: usize> From<&'a Numbers<'a, N>> for FrameNumbers<'a, N> {
 pub type FrameGaps = [[Mat3; FRAME]; MAX_PARENT_NODES];
 
 /// Of a facet of the host; A and k are its nodes.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct FrameBlocks {
     /// Df_C / Dx_k at fixed tractions.
     by_nodes: [[Mat3; MAX_PARENT_NODES]; FRAME],
@@ -76,37 +76,44 @@ impl FrameBlocks {
         numbers: &FrameNumbers<N>,
     ) -> Result<FrameBlocks> {
         let one = &given.setup.nonmortar;
-        let (own, multipliers) = (one.host_nodes(pair.one), one.multipliers(pair.one));
-        let mut motion = FrameMotion::default();
-        let zeros = [Mat3::zeros(); FRAME];
-        let mut of = FrameBlocks {
-            by_nodes: [[Mat3::zeros(); MAX_PARENT_NODES]; FRAME],
-            by_frame: [zeros; FRAME],
-            gap: motion.gap,
-        };
+        let multipliers = one.multipliers(pair.one);
         let (Some(active), Some(surface)) = (numbers.active.filter(|_| pair.is_active), numbers.surface) else {
+            let mut of = FrameBlocks::default();
             for (a, c) in (0..multipliers).flat_map(|a| (0..FRAME).map(move |c| (a, c))) {
                 of.gap[a][c] = Mat3::from_diagonal_element(-mortar_weight(all, pair, a, c, true));
             }
             return Ok(of);
         };
-        add_motion(given, (pair.one, active), (surface, numbers.rule), &mut motion)?;
         let mut t = [Vec3::zeros(); MAX_PARENT_NODES];
-        own.iter().zip(&mut t).take(multipliers).for_each(|(&a, t)| *t = numbers.nodes[a].traction);
-        if let Some(basis) = basis(given, active, pair)? {
+        let own = one.host_nodes(pair.one).iter().zip(&mut t).take(multipliers);
+        own.for_each(|(&a, t)| *t = numbers.nodes[a].traction);
+        let at = FacetPair { one, basis: given.setup.options.basis, active, pair };
+        FrameBlocks::by_weights(at, (surface, numbers.rule), t)
+    }
+
+    /// Of an active pair at these tractions of its multipliers.
+    fn by_weights(
+        at: FacetPair,
+        (surface, rule): (&AnalyticSurface, &'static Rule),
+        mut t: [Vec3; MAX_PARENT_NODES],
+    ) -> Result<FrameBlocks> {
+        let (mut of, mut motion) = (FrameBlocks::default(), FrameMotion::default());
+        let (own, multipliers) = (at.one.host_nodes(at.pair.one).len(), at.one.multipliers(at.pair.one));
+        at.add_motion((surface, rule), &mut motion)?;
+        if let Some(basis) = at.basis()? {
             let (inverse, p) = (basis.coefficients(), [0, 1, 2].map(|i| [0, 1, 2, 3].map(|a| t[a][i])));
             let inverse = |a: usize, b: usize| inverse[a][b] / basis.areas[a];
             let q = basis.tractions(&p);
             let q = |a: usize| Vec3::new(q[0][a], q[1][a], q[2][a]);
-            let shares = corner_shares(parent(one, pair.one));
-            for k in 0..own.len() {
+            let shares = corner_shares(at.parent());
+            for k in 0..own {
                 let of_row = |a: usize| -> Mat3 {
                     (0..multipliers).map(|b| (t[a] - q(b)) * motion.mass((a, b, k), &shares).transpose()).sum()
                 };
                 for b in 0..multipliers {
                     let change: Mat3 = (0..multipliers).map(|a| of_row(a) * inverse(b, a)).sum();
                     for c in 0..FRAME {
-                        of.by_nodes[c][k] += change * integrated(given, active, pair, (b, own.len() + c));
+                        of.by_nodes[c][k] += change * at.integrated(b, own + c);
                     }
                 }
             }
@@ -117,7 +124,7 @@ impl FrameBlocks {
             (0..multipliers).for_each(|a| t[a] = q(a));
         }
         for (a, c) in (0..multipliers).flat_map(|a| (0..FRAME).map(move |c| (a, c))) {
-            (0..own.len()).for_each(|k| of.by_nodes[c][k] -= t[a] * motion.by_nodes[a][c][k].transpose());
+            (0..own).for_each(|k| of.by_nodes[c][k] -= t[a] * motion.by_nodes[a][c][k].transpose());
             (0..FRAME).for_each(|d| of.by_frame[c][d] -= t[a] * motion.by_frame[a][c][d].transpose());
         }
         of.gap = motion.gap;
@@ -125,58 +132,68 @@ impl FrameBlocks {
     }
 }
 
-/// The kind of a facet of the host.
-pub fn parent(one: &Surface, f: usize) -> &'static Parent {
-    let linear = || Parent::of(one.facets[f].len).expect("a checked facet has 3 or 4 nodes");
-    one.parents.as_ref().map_or_else(linear, |parents| parents.facets[f].parent)
+/// A facet of the host with its pair, an analytic surface.
+#[derive(Clone, Copy)]
+pub struct FacetPair<'a> {
+    /// The non-mortar side.
+    pub one: &'a Surface,
+    /// Of the multipliers.
+    pub basis: MultiplierBasis,
+    /// The pairs that are active now.
+    pub active: &'a Active,
+    /// The pair.
+    pub pair: &'a UnionPair,
 }
 
-/// Adds the derivatives of all parts of a facet of the host.
-pub fn add_motion<const N: usize>(
-    given: Given<N>,
-    (f, active): (usize, &Active),
-    (surface, rule): (&AnalyticSurface, &'static Rule),
-    to: &mut FrameMotion,
-) -> Result<()> {
-    let one = &given.setup.nonmortar;
-    let Some(parents) = &one.parents else {
-        let frame = one.frame(f, &active.x1, &active.normals)?;
-        let parent = parent(one, f);
-        let (mut x, facet) = ([Vec3::zeros(); MAX_PARENT_NODES], one.facet(f, &active.x1));
-        x.iter_mut().zip(&facet.nodes).for_each(|(x, of)| *x = of - surface.origin);
-        let (side, space) = ((parent, &parent.subs[0]), MultiplierSpace::Corner);
-        return SurfacePair { side, space, area: &area_element(&frame), surface, rule }.frame_motion(&x, to);
-    };
-    for part in parents.parts(f) {
-        let frame = one.frame(part, &active.x1, &active.normals)?;
-        parents.over_surface(part, (&frame, &active.x1), (surface, rule), |part, x| part.frame_motion(x, to))?;
+impl FacetPair<'_> {
+    /// The kind of the facet.
+    pub fn parent(&self) -> &'static Parent {
+        let (one, f) = (self.one, self.pair.one);
+        let linear = || Parent::of(one.facets[f].len).expect("a checked facet has 3 or 4 nodes");
+        one.parents.as_ref().map_or_else(linear, |parents| parents.facets[f].parent)
     }
-    Ok(())
-}
 
-/// The dual basis of the facet of a pair; `None` with standard multipliers.
-pub fn basis<const N: usize>(given: Given<N>, active: &Active, pair: &UnionPair) -> Result<Option<DualBasis>> {
-    let (one, place) = (&given.setup.nonmortar, pair.place);
-    if given.setup.options.basis == MultiplierBasis::Standard {
-        return Ok(None);
+    /// Adds the derivatives of all of its parts.
+    pub fn add_motion(&self, (surface, rule): (&AnalyticSurface, &'static Rule), to: &mut FrameMotion) -> Result<()> {
+        let FacetPair { one, active, pair, .. } = *self;
+        let Some(parents) = &one.parents else {
+            let (frame, parent) = (one.frame(pair.one, &active.x1, &active.normals)?, self.parent());
+            let (mut x, facet) = ([Vec3::zeros(); MAX_PARENT_NODES], one.facet(pair.one, &active.x1));
+            x.iter_mut().zip(&facet.nodes).for_each(|(x, of)| *x = of - surface.origin);
+            let (side, space) = ((parent, &parent.subs[0]), MultiplierSpace::Corner);
+            return SurfacePair { side, space, area: &area_element(&frame), surface, rule }.frame_motion(&x, to);
+        };
+        for part in parents.parts(pair.one) {
+            let frame = one.frame(part, &active.x1, &active.normals)?;
+            parents.over_surface(part, (&frame, &active.x1), (surface, rule), |part, x| part.frame_motion(x, to))?;
+        }
+        Ok(())
     }
-    if one.parents.is_some() {
-        return one.parent_basis(pair.one, &active.x1, std::iter::once(active.integrated_parent(place)));
-    }
-    let frame = one.frame(pair.one, &active.x1, &active.normals)?;
-    Ok(dual_basis(one, pair.one, (&frame, &[]), &active.integrated[place..place + 1])?.1)
-}
 
-/// n_AB, or - n_AC, of a multiplier and the k-th of a facet's own nodes and then of the frame's points, as it was integrated.
-pub fn integrated<const N: usize>(given: Given<N>, active: &Active, pair: &UnionPair, (a, k): (usize, usize)) -> f64 {
-    let own = given.setup.nonmortar.host_nodes(pair.one).len();
-    let of = |ab: &[f64], ac: &[f64]| if k < own { ab[k] } else { -ac[k - own] };
-    if given.setup.has_parents() {
-        let n = active.integrated_parent(pair.place);
-        return of(&n.ab[a], &n.ac[a]);
+    /// Its dual basis; `None` with standard multipliers.
+    pub fn basis(&self) -> Result<Option<DualBasis>> {
+        let FacetPair { one, active, pair, .. } = *self;
+        if self.basis == MultiplierBasis::Standard {
+            return Ok(None);
+        }
+        if one.parents.is_some() {
+            return one.parent_basis(pair.one, &active.x1, std::iter::once(active.integrated_parent(pair.place)));
+        }
+        let frame = one.frame(pair.one, &active.x1, &active.normals)?;
+        Ok(dual_basis(one, pair.one, (&frame, &[]), &active.integrated[pair.place..pair.place + 1])?.1)
     }
-    let n = active.integrated(pair.place);
-    of(&n.ab[a], &n.ac[a])
+
+    /// n_AB, or - n_AC, of a multiplier and the k-th of the facet's own nodes and then of the frame's points, as it was integrated.
+    pub fn integrated(&self, a: usize, k: usize) -> f64 {
+        let own = self.one.host_nodes(self.pair.one).len();
+        let of = |ab: &[f64], ac: &[f64]| if k < own { ab[k] } else { -ac[k - own] };
+        if self.one.parents.is_some() {
+            let n = self.active.integrated_parent(self.pair.place);
+            return of(&n.ab[a], &n.ac[a]);
+        }
+        let n = self.active.integrated(self.pair.place);
+        of(&n.ab[a], &n.ac[a])
+    }
 }
 
 /// Whether anything but the frame's own rows and columns reads how gaps depend on the frame: products with projected tractions, rows of

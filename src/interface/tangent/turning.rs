@@ -57,12 +57,13 @@ pub struct Turns<'a, const N: usize> {
 
 impl<'a, const N: usize> Turns<'a, N> {
     /// At the sums and the answers of x1, in `nodes`; `scale`: the factor of a node's rows. `None`: the normals are those of t_n.
+    #[inline(never)] // two callers, one of them seldom
     pub fn at(
         given: Given<N>,
         (x1, lambda): (&'a [Vec3], &[SVector<f64, N>]),
         (pairs, sums, responses): (Weighted, &[NodeSums], &Responses<N>),
         normals: &[Vec3],
-        scale: impl Fn(usize) -> f64,
+        scale: &dyn Fn(usize) -> f64,
         nodes: &'a mut Vec<NodeTurn<N>>,
     ) -> Result<Option<Turns<'a, N>>> {
         let Some(now) = &given.step.now else { return Ok(None) };
