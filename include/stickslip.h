@@ -1134,7 +1134,7 @@ typedef struct stickslip_equilibrium {
   double lag_force_scale;
   /// Output: how far a node of either side is really in the other body, whatever the weighted gaps say, beyond what the sagittas of
   /// curved facets are; the largest over penetration_scale. No violation; 0 of tied surfaces. Facets that are coarser than the contact
-  /// do not feel it, and overlaps that count as closed press nothing: beyond 0.003 of its scale tell it, and end no run beyond 0.02;
+  /// do not feel it, and overlaps that count as closed press nothing: beyond 0.003 of its scale tell it, and end no run that never pressed beyond 0.02;
   /// beyond 0.1 an interface that has pressed before has lost its contact. Facets that are finer than the contact as non-mortar side, or STICKSLIP_DECISION_POINTS, see more [L].
   double penetration;
   /// Output: what to compare it with: the longest edge of the smaller facet there; 30 of them where nodes of the facet press and weights

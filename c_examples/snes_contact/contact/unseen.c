@@ -7,11 +7,14 @@
 /* An overlap, over the library's scale, that is told. The scale is a facet's edge where nothing feels the overlap, which may be all that the
  * bodies have approached by; where it is felt, thirty of them. */
 static const PetscReal OVERLAP_TOLD = 0.003;
-/* With more no run ends. On its way in a tip dents facets until these feel it, and no shorter step keeps it from that. */
+/* With more no run ends in which the interface never pressed. On its way in a tip dents facets until these feel it, and no shorter step keeps it
+ * from that. */
 static const PetscReal OVERLAP_END = 0.02;
 /* With more no step counts where the interface has pressed before: it has lost its contact. So it is where nodes press so far from
  * anything. */
 static const PetscReal OVERLAP_MOST = 0.1;
+/* A traction over the modulus that is none. */
+static const PetscReal ROUNDED = 1e-12;
 /* A lag that is told, of a node over the largest traction or of all nodes over their force; with which no step counts is `lag_max`. */
 static const PetscReal LAG_TOLD = 0.01;
 /* One node in contact is no news of a surface of so few. */
@@ -62,8 +65,9 @@ static PetscErrorCode measure(const Contact *contact, Interface *interface)
 /* What an overlap may be; `last`: the run would end with this step. */
 static PetscReal overlap_most(const Interface *interface, PetscBool last)
 {
-  if (last) return OVERLAP_END;
-  return interface->largest_traction > 0 ? OVERLAP_MOST : PETSC_MAX_REAL;
+  if (interface->largest_traction > 0) return OVERLAP_MOST;
+  if (!last) return PETSC_MAX_REAL;
+  return interface->equilibrium.traction_scale > ROUNDED * interface->young ? OVERLAP_MOST : OVERLAP_END;
 }
 
 /* At a converged state that the interfaces have been judged at. `why`, where it does not count; `ratio`: at least how many times too
