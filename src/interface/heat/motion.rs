@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
 use crate::interface::data::extent::Extent;
-use crate::interface::data::options::Tangent;
+use crate::interface::data::options::{Options, Tangent};
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::respond::Responses;
@@ -21,7 +21,7 @@ use crate::interface::tangent::task::{Numbers, Task};
 use crate::interface::tangent::union::{Pairs, UnionPair, Walk};
 use crate::memory::{self, Store};
 use crate::mortar::FrameMotion;
-use crate::shape::{MAX_CORNERS, MAX_NODES};
+use crate::shape::{MAX_CORNERS, MAX_NODES, MAX_PARENT_NODES};
 
 /// The weights of one facet, and how they change.
 #[derive(Debug, Default)]
@@ -127,7 +127,7 @@ pub fn each_facet<const N: usize>(
 ) -> Result<()> {
     let mut weights = FacetWeights::default();
     if given.setup.mortar.analytic.is_some() {
-        return each_over_surface(given, active, &mut weights, take);
+        return each_over_surface(given.setup.surfaces(), &given.setup.options, active, &mut weights, take);
     }
     if given.setup.has_parents() {
         return each_parent((given, normals), (active, responses), &mut weights, take);
@@ -166,6 +166,7 @@ pub fn each_facet<const N: usize>(
 }
 
 /// Of quadratic facets and lines: forces of tractions that are 1 at one multiplier, two multipliers at a time.
+#[inline(never)] // large
 fn each_parent<const N: usize>(
     (given, normals): (Given<N>, &[Vec3]),
     (active, responses): (&Active, &Responses<N>),
@@ -218,15 +219,16 @@ fn each_parent<const N: usize>(
 }
 
 /// Of facets against an analytic surface, whose weights are of the points of its frame.
-fn each_over_surface<const N: usize>(
-    given: Given<N>,
+fn each_over_surface(
+    surfaces: (&Surface, &Surface),
+    options: &Options,
     active: &Active,
     to: &mut FacetWeights,
     take: &mut dyn FnMut(&FacetWeights) -> Result<()>,
 ) -> Result<()> {
-    let (one, two) = given.setup.surfaces();
+    let (one, two) = surfaces;
     let (surface, points) = (two.analytic_at(&active.x2)?, two.len());
-    let all = match given.setup.has_parents() {
+    let all = match one.parents.is_some() {
         true => Pairs::Parents([&active.parents, &[]]),
         false => Pairs::Union([&active.pairs, &[]]),
     };
@@ -237,8 +239,8 @@ fn each_over_surface<const N: usize>(
         motion.clear();
         motion.store(FrameMotion::default())?;
         let motion = &mut motion[0];
-        let at = FacetPair { one, basis: given.setup.options.basis, active, pair: &of_facet[0] };
-        at.add_motion((&surface, given.setup.options.rule), motion)?;
+        let at = FacetPair { one, basis: options.basis, active, pair: &of_facet[0] };
+        at.add_motion((&surface, options.rule), motion)?;
         to.begin(own, multipliers, (0..points).map(|c| one.len() + two.facets[0].nodes[c]))?;
         let n = own.len();
         for a in 0..multipliers {
@@ -251,27 +253,28 @@ fn each_over_surface<const N: usize>(
             }
         }
         if let Some(basis) = at.basis()? {
-            let shares = corner_shares(at.parent());
-            make_dual((&basis, at), |a, b, c| if c < n { motion.mass((a, b, c), &shares) } else { Vec3::zeros() }, to);
+            make_dual((&basis, at), motion, to);
         }
         take(to)?;
     }
     Ok(())
 }
 
-/// Makes of the derivatives of weights those of dual ones, n^d_A = m_A (m^-1 n)_A, with Dm_AB by each node. The facet is covered wholly.
-fn make_dual((basis, at): (&DualBasis, FacetPair), mass: impl Fn(usize, usize, usize) -> Vec3, to: &mut FacetWeights) {
-    let (coefficients, m, n) = (basis.coefficients(), to.multipliers, to.nodes.len());
+/// Makes of the derivatives of weights those of dual ones, n^d_A = m_A (m^-1 n)_A. The facet is covered wholly.
+fn make_dual((basis, at): (&DualBasis, FacetPair), motion: &FrameMotion, to: &mut FacetWeights) {
+    let (coefficients, shares, m, n) =
+        (basis.coefficients(), corner_shares(at.parent()), to.multipliers, to.nodes.len());
     let inverse = |a: usize, b: usize| coefficients[a][b] / basis.areas[a];
+    // The frame changes no area.
+    let mass = |a: usize, b: usize, c: usize| {
+        if c < MAX_PARENT_NODES { motion.mass((a, b, c), &shares) } else { Vec3::zeros() }
+    };
     for (k, c) in (0..n).flat_map(|k| (0..n).map(move |c| (k, c))) {
         let solved = |a: usize| (0..m).map(|b| inverse(a, b) * at.integrated(b, k)).sum::<f64>();
-        let rest: [Vec3; MAX_CORNERS] = std::array::from_fn(|b| {
-            if b < m {
-                *to.slope(b, k, c) - (0..m).map(|e| mass(b, e, c) * solved(e)).sum::<Vec3>()
-            } else {
-                Vec3::zeros()
-            }
-        });
+        let mut rest = [Vec3::zeros(); MAX_CORNERS];
+        for (b, rest) in rest.iter_mut().enumerate().take(m) {
+            *rest = *to.slope(b, k, c) - (0..m).map(|e| mass(b, e, c) * solved(e)).sum::<Vec3>();
+        }
         for a in 0..m {
             let area: Vec3 = (0..m).map(|e| mass(a, e, c)).sum();
             let of: Vec3 = (0..m).map(|b| rest[b] * (basis.areas[a] * inverse(a, b))).sum();

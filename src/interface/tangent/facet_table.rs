@@ -123,13 +123,16 @@ impl<const N: usize> FacetTable<N> {
         slots
     }
 
-    /// Makes room for derivatives of now; of dual multipliers, and of offsets, where there are any.
-    pub fn differentiate(&mut self, is_dual: bool, raise: Option<Raise>) -> Result<()> {
+    /// Makes room for derivatives of now; of dual multipliers, and of offsets, where there are any. `adds`: whether kernels add up, in
+    /// place of blocks that are put.
+    pub fn differentiate(&mut self, is_dual: bool, adds: bool, raise: Option<Raise>) -> Result<()> {
         let (columns, none) = (self.columns(), [[0.0; MAX_CORNERS]; 3]);
         // Pairs of t_n alone have no derivatives.
         self.fixed = false;
-        memory::refill(&mut self.forces, Columns::default(), columns)?;
-        memory::refill(&mut self.slopes, none, columns)?;
+        if adds {
+            memory::refill(&mut self.forces, Columns::default(), columns)?;
+            memory::refill(&mut self.slopes, none, columns)?;
+        }
         self.raise = raise;
         if raise.is_some() {
             memory::refill(&mut self.offsets, none, columns)?;

@@ -55,7 +55,7 @@ pub fn fill<const N: usize>(
     let is_offset = offsets::are_there((one, two));
     let of_nodes = one.facets[f].nodes.map(|a| normals[a]);
     let raise = is_offset.then(|| Raise { normals: of_nodes, in_previous: in_previous_gaps(given) });
-    table.differentiate(dual.is_some(), raise)?;
+    table.differentiate(dual.is_some(), numbers.motion.surface.is_none(), raise)?;
     let linearised = places.len() as i64;
     if dual.is_some() && motion.is_none() {
         return Ok(linearised); // it has faded out
