@@ -10,10 +10,10 @@
 //! Blocks lie column by column, x_k,j with k over the pair's slots and j its components, as they are computed: in a
 //! column the components of the rows' equations, and of each the four nodes of a facet.
 
-use crate::geometry::{Mat3, Vec3};
-use crate::mortar::{AlongNormal, ForceDerivatives, MORTAR, PAIR_NODES, PairWeights, columns};
-use crate::shape::{MAX_CORNERS, MAX_NODES};
-use crate::simd::{self, Kernel, Lanes};
+use super::facet_rows::{Along, FacetGaps, facet_rows};
+use crate::geometry::Mat3;
+use crate::mortar::{AlongNormal, ForceDerivatives, MORTAR, PAIR_NODES, PairWeights};
+use crate::shape::MAX_CORNERS;
 use nalgebra::{SMatrix, SVector};
 
 /// What a pair must know of a node's response: N multipliers at the node, D components of a position.
@@ -77,103 +77,30 @@ pub struct PairNow<'a> {
     pub gap: Option<&'a AlongNormal>,
 }
 
-/// d row / d x of a pair active now, at t_n, or both, into `rows`.
-#[inline(never)]
+/// d row / d x of a pair active now, at t_n, or both, into `rows`: a facet that has no other pair.
 pub fn row_columns<const N: usize>(
     (now, previous): (Option<&PairNow>, Option<&PairWeights>),
     nodes: &FacetResponse<N>,
     rows: &mut RowColumns<N>,
 ) {
-    simd::dispatch(RowKernel { now, previous, nodes, rows });
+    let gap = now.and_then(|now| now.gap);
+    let fixed = now.filter(|_| gap.is_none()).map(|now| slots(now.weights));
+    let (along, previous) = (gap.map(Along::from), previous.map_or([[0.0; MAX_CORNERS]; PAIR_NODES], slots));
+    let gaps = FacetGaps {
+        along: along.as_ref(),
+        slopes: gap.map_or(&[], |gap| &gap.dgamma),
+        blocks: None,
+        fixed: fixed.as_ref().map_or(&[], |fixed| fixed),
+        previous: &previous,
+        raise: None,
+        offsets: &[],
+    };
+    facet_rows(gaps, nodes, rows);
 }
 
-struct RowKernel<'a, const N: usize> {
-    now: Option<&'a PairNow<'a>>,
-    previous: Option<&'a PairWeights>,
-    nodes: &'a FacetResponse<N>,
-    rows: &'a mut RowColumns<N>,
-}
-
-impl<const N: usize> Kernel for RowKernel<'_, N> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<L: Lanes>(self) {
-        let RowKernel { now, previous, nodes, rows } = self;
-        match (now, previous) {
-            (Some(PairNow { gap: Some(gap), .. }), _) => {
-                // In one pass with what the weights of t_n add.
-                let none = PairWeights::default();
-                with_motion::<L, N>(gap, nodes, previous.unwrap_or(&none), rows);
-            }
-            (Some(now), _) => {
-                frozen::<L, N, false>(now.weights, &nodes.now, rows);
-                if let Some(weights) = previous {
-                    frozen::<L, N, true>(weights, &nodes.previous, rows);
-                }
-            }
-            (None, Some(weights)) => frozen::<L, N, false>(weights, &nodes.previous, rows),
-            (None, None) => {}
-        }
-    }
-}
-
-/// drow . Dg of two facets with current weights, and with those of t_n, which are held fixed.
-#[inline(always)]
-fn with_motion<L: Lanes, const N: usize>(
-    d: &AlongNormal,
-    nodes: &FacetResponse<N>,
-    previous: &PairWeights,
-    rows: &mut RowColumns<N>,
-) {
-    const { assert!(MAX_NODES == MAX_CORNERS) }; // the corners, which tilt the plane, are the nodes
-    let (ab, ac, gamma) = (columns::<L>(&previous.ab), columns::<L>(&previous.ac), L::load(&d.gamma));
-    for n in 0..N {
-        let (drow, fixed) = (&nodes.now[n], &nodes.previous[n]);
-        let fixed = [L::load(&fixed[0]), L::load(&fixed[1]), L::load(&fixed[2])];
-        let along = component::<L>(drow, &d.e);
-        let across = [component::<L>(drow, &d.axes[0]) * gamma, component::<L>(drow, &d.axes[1]) * gamma];
-        for k in 0..MORTAR {
-            // gamma De = gamma (t1 tilt1 + t2 tilt2) e . Dx_k
-            let tilt = across[1].mul_add(L::splat(d.tilt[1][k]), across[0] * L::splat(d.tilt[0][k]));
-            for j in 0..3 {
-                let row = along.mul_add(L::load(&d.dgamma[k][j]), fixed[j] * ab[k]);
-                rows[k][j][n] = tilt.mul_add(L::splat(d.e[j]), row).store();
-            }
-        }
-        for k in MORTAR..PAIR_NODES {
-            for j in 0..3 {
-                let row = along * L::load(&d.dgamma[k][j]);
-                rows[k][j][n] = fixed[j].neg_mul_add(ac[k - MORTAR], row).store();
-            }
-        }
-    }
-}
-
-/// drow . v, lanes A.
-#[inline(always)]
-fn component<L: Lanes>(drow: &[[f64; MAX_CORNERS]; 3], v: &Vec3) -> L {
-    let mut sum = L::load(&drow[0]) * L::splat(v[0]);
-    for j in 1..3 {
-        sum = L::load(&drow[j]).mul_add(L::splat(v[j]), sum);
-    }
-    sum
-}
-
-/// drow . Dg with weights held fixed: n_AB drow and -n_AC drow; `ADD`: to what is there.
-#[inline(always)]
-fn frozen<L: Lanes, const N: usize, const ADD: bool>(weights: &PairWeights, drow: &Rows<N>, rows: &mut RowColumns<N>) {
-    let (ab, ac) = (columns::<L>(&weights.ab), columns::<L>(&weights.ac));
-    for k in 0..PAIR_NODES {
-        let weight = if k < MORTAR { ab[k] } else { -ac[k - MORTAR] };
-        for n in 0..N {
-            for j in 0..3 {
-                let drow = L::load(&drow[n][j]);
-                let row = if ADD { drow.mul_add(weight, L::load(&rows[k][j][n])) } else { drow * weight };
-                rows[k][j][n] = row.store();
-            }
-        }
-    }
+/// n_AB and - n_AC, slot by slot.
+fn slots(n: &PairWeights) -> [[f64; MAX_CORNERS]; PAIR_NODES] {
+    std::array::from_fn(|k| std::array::from_fn(|a| if k < MORTAR { n.ab[a][k] } else { -n.ac[a][k - MORTAR] }))
 }
 
 /// Tangent blocks of one pair.

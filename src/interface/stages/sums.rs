@@ -99,7 +99,8 @@ fn each_gap_of_parents(
 }
 
 /// What each pair adds to o_A = sum_B n_AB h_B + sum_C n_AC h_C of each of its non-mortar nodes, h the nodes' offsets [L^3].
-pub fn each_offset((one, two): (&Surface, &Surface), pairs: Weighted, mut add: impl FnMut(usize, f64)) {
+#[inline(never)] // many callers
+pub fn each_offset((one, two): (&Surface, &Surface), pairs: Weighted, add: &mut dyn FnMut(usize, f64)) {
     let field = |side: &Surface, nodes: &[usize], row: &[f64]| -> f64 {
         nodes.iter().zip(row).map(|(&node, n)| n * side.offset(node)).sum()
     };
@@ -154,7 +155,7 @@ fn each_along<const N: usize>(given: Given<N>, pairs: Weighted, mut add: impl Fn
         return Ok(());
     }
     let mut refused = Ok(());
-    each_offset(surfaces, pairs, |node, offset| match given.normal(node) {
+    each_offset(surfaces, pairs, &mut |node, offset| match given.normal(node) {
         Ok(nu) => add(node, nu * offset),
         Err(error) => refused = Err(error),
     });

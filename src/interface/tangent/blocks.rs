@@ -16,7 +16,7 @@ use super::read::ReadTable;
 use super::task::{Numbers, Task};
 use super::turning;
 use super::union::{UnionPair, Walk};
-use crate::element::{FacetResponse, NodeTangent};
+use crate::element::{FacetResponse, NodeTangent, Rows};
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::multiplier::force_traction;
@@ -77,7 +77,9 @@ fn couple<const N: usize>(
 /// What the blocks of a facet are computed in. Large, so that one serves all facets.
 #[derive(Debug, Default)]
 pub struct Room<const N: usize> {
-    table: FacetTable<N>,
+    table: FacetTable,
+    /// Of the multipliers of the facet at hand.
+    rows: Vec<Rows<N>>,
     linear: LinearRoom,
     /// The row of a node's answer that is not its own multiplier's.
     row: Vec<NodeBlock>,
@@ -117,7 +119,7 @@ pub fn beyond_facets<const N: usize>(task: Task<N>, room: &mut Room<N>, (taker, 
 }
 
 /// Begins a facet's table.
-fn begin<const N: usize>(task: Task<N>, pairs: &[UnionPair], table: &mut FacetTable<N>) -> Result<()> {
+fn begin<const N: usize>(task: Task<N>, pairs: &[UnionPair], table: &mut FacetTable) -> Result<()> {
     let (setup, all) = (task.given.setup, task.pairs);
     let two = (task.moves || setup.frame_moves()).then_some(&setup.mortar);
     table.begin(&setup.nonmortar, two, (all, pairs))
@@ -179,7 +181,7 @@ pub fn of_facets<const N: usize>(
 fn of_facet<const N: usize>(
     task: Task<N>,
     pairs: &[UnionPair],
-    Room { table, linear, row, .. }: &mut Room<N>,
+    Room { table, rows, linear, row, .. }: &mut Room<N>,
     couplings: Option<&mut [NodeCouplings]>,
     emitter: &mut Emitter<N>,
 ) -> Result<i64> {
@@ -191,23 +193,26 @@ fn of_facet<const N: usize>(
     if let Some(numbers) = numbers {
         let nodes = FacetResponse::new(one.nodes.map(|a| &numbers.nodes[a]));
         linearised = linear_facet::fill(task, (numbers, pairs), &nodes, (table, linear), emitter)?;
-        table.make_rows(&nodes);
+        table.rows(Some(&nodes), rows)?;
         if let Some(turns) = &numbers.turns {
-            turns.add_rows(given, f, &mut table.rows);
+            turns.add_rows(given, f, rows);
         }
-    } else if couples {
-        table.begin_coupled()?;
-    } else if moves {
-        let forces = ForceDerivatives::default();
-        pairs.iter().filter(|pair| pair.is_active).for_each(|pair| emitter.pair(pair.two, &forces));
+    } else {
+        table.rows(None, rows)?;
+        if couples {
+            table.begin_coupled()?;
+        } else if moves {
+            let forces = ForceDerivatives::default();
+            pairs.iter().filter(|pair| pair.is_active).for_each(|pair| emitter.pair(pair.two, &forces));
+        }
     }
     let weights = table.weights_of(0..MAX_NODES);
-    emitter.facet(f, Span::Own, table.acts.then_some((&table.forces[..MAX_NODES], &weights)), &table.rows[..MAX_NODES]);
+    emitter.facet(f, Span::Own, table.acts.then_some((&table.forces[..MAX_NODES], &weights)), &rows[..MAX_NODES]);
     if moves {
         for (columns, nodes, acts) in table.groups() {
             let weights = table.weights_of(columns.start..columns.end);
             let now = acts.then_some((&table.forces[columns.start..columns.end], &weights));
-            emitter.facet(f, Span::Group(nodes), now, &table.rows[columns]);
+            emitter.facet(f, Span::Group(nodes), now, &rows[columns]);
         }
     }
     if couples {

@@ -25,7 +25,7 @@ type Weights = [f64; MAX_CORNERS];
 
 /// Column by column.
 #[derive(Debug, Default)]
-pub struct FacetTable<const N: usize> {
+pub struct FacetTable {
     /// Nodes of the facet.
     own: usize,
     /// Its mortar nodes, and how many of them are of active pairs.
@@ -56,8 +56,6 @@ pub struct FacetTable<const N: usize> {
     weights: Vec<[[f64; GROUP]; MAX_CORNERS]>,
     tractions: Vec<Columns>,
     coupled: Vec<Columns>,
-    /// Of the multipliers.
-    pub rows: Vec<Rows<N>>,
 }
 
 /// Each slot of a pair with its column.
@@ -66,7 +64,7 @@ struct Slots {
     len: usize,
 }
 
-impl<const N: usize> FacetTable<N> {
+impl FacetTable {
     /// Begins with the facet of these pairs, in the memory of the one before. `two`: the mortar side where it has columns.
     pub fn begin(&mut self, one: &Surface, two: Option<&Surface>, (all, pairs): (Pairs, &[UnionPair])) -> Result<()> {
         let own = one.facets[pairs[0].one].as_slice();
@@ -93,7 +91,6 @@ impl<const N: usize> FacetTable<N> {
         let columns = self.columns();
         memory::refill(&mut self.now, Default::default(), columns)?;
         memory::refill(&mut self.previous, Default::default(), columns)?;
-        memory::refill(&mut self.rows, [[[0.0; MAX_CORNERS]; N]; 3], columns)?;
         if self.forces.len() < columns {
             memory::refill(&mut self.forces, Columns::default(), columns)?;
         }
@@ -242,11 +239,13 @@ impl<const N: usize> FacetTable<N> {
         }
     }
 
-    /// Makes the rows of the facet's multipliers.
-    pub fn make_rows(&mut self, nodes: &FacetResponse<N>) {
-        let mut rows = std::mem::take(&mut self.rows);
-        facet_rows(self.gaps(), nodes, &mut rows);
-        self.rows = rows;
+    /// The rows of the facet's multipliers, in place of what is in `rows`; zeros without the nodes' answers.
+    pub fn rows<const N: usize>(&self, nodes: Option<&FacetResponse<N>>, rows: &mut Vec<Rows<N>>) -> Result<()> {
+        memory::refill(rows, [[[0.0; MAX_CORNERS]; N]; 3], self.columns())?;
+        if let Some(nodes) = nodes {
+            facet_rows(self.gaps(), nodes, rows);
+        }
+        Ok(())
     }
 
     /// n_AB, or - n_AC, of these columns: `[A][column]`.
@@ -278,7 +277,7 @@ impl<const N: usize> FacetTable<N> {
     }
 }
 
-impl<const N: usize> ReadTable for FacetTable<N> {
+impl ReadTable for FacetTable {
     fn nodes(&self) -> &[(usize, usize)] {
         &self.nodes
     }

@@ -2,6 +2,7 @@
 //! nodes make of it (docs/formulation.md 10.4, 15.2). With o_A = sum_B n_AB h_B + sum_C n_AC h_C of the offsets h, dual multipliers
 //! have phi m_A eta_A, eta = m^-1 o with the integrated weights, in its place: D(phi m_A) eta_A + phi m_A (m^-1 [Do - Dm eta])_A.
 
+use super::derivatives::PairDerivatives;
 use super::dual_facet::DualFacet;
 use super::emission::Emitter;
 use super::facet_table::FacetTable;
@@ -38,7 +39,7 @@ pub fn fill<const N: usize>(
     task: Task<N>,
     (numbers, pairs): (&Numbers<N>, &[UnionPair]),
     nodes: &FacetResponse<N>,
-    (table, LinearRoom { forces, overlaps }): (&mut FacetTable<N>, &mut LinearRoom),
+    (table, LinearRoom { forces, overlaps }): (&mut FacetTable, &mut LinearRoom),
     emitter: &mut Emitter<N>,
 ) -> Result<i64> {
     let Task { given, normals, moves, .. } = task;
@@ -63,10 +64,10 @@ pub fn fill<const N: usize>(
     if frame::is_read(given) {
         table.put_frame(FrameBlocks::of((given, task.pairs), &pairs[0], &numbers.into())?.gap);
     }
-    let facet = Facet { f, pairs, active, overlaps, numbers, sides: [one, two], moves };
+    let facet = Facet { f, pairs, active, overlaps, how: &numbers.motion, sides: [one, two], moves };
     let at = (dual.as_ref(), motion.as_ref());
     match numbers.motion.surface {
-        Some(surface) => facet.over_surface((surface, nodes), at, forces, table)?,
+        Some(surface) => facet.over_surface((surface, &nodes.traction), at, forces, table)?,
         None => facet.over_facets(nodes, at, forces, (table, emitter)),
     }
     if is_offset {
@@ -76,30 +77,30 @@ pub fn fill<const N: usize>(
 }
 
 /// A facet with its pairs, where weights are differentiated.
-struct Facet<'a, const N: usize> {
+struct Facet<'a> {
     f: usize,
     pairs: &'a [UnionPair],
     active: &'a Active,
     overlaps: &'a FacetOverlaps,
-    numbers: &'a Numbers<'a, N>,
+    how: &'a PairDerivatives<'a>,
     sides: [&'a Surface; 2],
     moves: bool,
 }
 
-impl<const N: usize> Facet<'_, N> {
+impl Facet<'_> {
     /// Its active pairs.
     fn active_pairs(&self) -> impl Iterator<Item = &UnionPair> {
         self.pairs.iter().filter(|pair| pair.is_active)
     }
 
-    fn over_facets(
+    fn over_facets<const N: usize>(
         &self,
         nodes: &FacetResponse<N>,
         (dual, motion): (Option<&DualFacet>, Option<&FacetMotion>),
         forces: &mut ForceDerivatives,
-        (table, emitter): (&mut FacetTable<N>, &mut Emitter<N>),
+        (table, emitter): (&mut FacetTable, &mut Emitter<N>),
     ) {
-        let (how, segments) = (&self.numbers.motion, &self.overlaps.segments);
+        let (how, segments) = (self.how, &self.overlaps.segments);
         let (frame, mut areas) = (how.frame(self.overlaps.frame()), NO_AREAS);
         let of_pairs = self.active_pairs().zip(segments);
         if !self.moves && segments[0].points.is_none() {
@@ -133,14 +134,14 @@ impl<const N: usize> Facet<'_, N> {
 
     fn over_surface(
         &self,
-        (surface, nodes): (&AnalyticSurface, &FacetResponse<N>),
+        (surface, traction): (&AnalyticSurface, &[[f64; MAX_CORNERS]; 3]),
         (dual, motion): (Option<&DualFacet>, Option<&FacetMotion>),
         forces: &mut ForceDerivatives,
-        table: &mut FacetTable<N>,
+        table: &mut FacetTable,
     ) -> Result<()> {
-        let (frame, how) = (self.overlaps.frame(), &self.numbers.motion);
+        let (frame, how) = (self.overlaps.frame(), self.how);
         let (Some(dual), Some(motion)) = (dual, motion) else {
-            let gap = analytic_motion(frame, surface, how.rule, &nodes.traction, forces)?;
+            let gap = analytic_motion(frame, surface, how.rule, traction, forces)?;
             table.put_blocks(gap, Some(forces));
             return Ok(());
         };
@@ -159,13 +160,8 @@ impl<const N: usize> Facet<'_, N> {
     }
 
     /// What offsets of the nodes add, after all else.
-    fn offsets(
-        &self,
-        dual: Option<&DualFacet>,
-        forces: &mut ForceDerivatives,
-        table: &mut FacetTable<N>,
-    ) -> Result<()> {
-        let (how, [one, two]) = (&self.numbers.motion, self.sides);
+    fn offsets(&self, dual: Option<&DualFacet>, forces: &mut ForceDerivatives, table: &mut FacetTable) -> Result<()> {
+        let (how, [one, two]) = (self.how, self.sides);
         let (frame, mut h) = (self.overlaps.frame(), of_nodes(one, self.f));
         let eta = dual.and_then(DualFacet::offsets);
         if let Some(surface) = how.surface {

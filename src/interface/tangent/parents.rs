@@ -8,21 +8,21 @@ use super::frame::{self, FrameBlocks};
 use super::lines::add_lines;
 use super::parent_table::{DualParent, MortarNode, ParentTable, bit};
 use super::read::{ReadTable, square};
-use super::task::{Numbers, Task};
+use super::task::Task;
 use super::union::UnionPair;
 use crate::element::ParentPair;
 use crate::error::Result;
 use crate::features;
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::active::Active;
-use crate::interface::data::effects::Opposite;
+use crate::interface::data::facet_gaps::FacetGaps;
 use crate::interface::data::host_facets::parents_at;
 use crate::interface::data::lines::{Lines, line};
 use crate::interface::data::offsets;
-use crate::interface::data::options::{Form, MultiplierBasis, Tangent};
+use crate::interface::data::options::{Form, MultiplierBasis, Options, Tangent};
 use crate::interface::data::parents::Parents;
 use crate::interface::data::surface::Surface;
-use crate::interface::pairing::given::Given;
+use crate::interface::pairing::filter::Filter;
 use crate::interface::pairing::overlaps::FacetOverlaps;
 use crate::interface::stages::sums::in_previous_gaps;
 use crate::memory::{self, Store};
@@ -71,7 +71,20 @@ pub fn fill<const N: usize>(task: Task<N>, pairs: &[UnionPair], room: &mut Paren
         };
         room.table.add_weights(&places, [now, integrated, task.pairs.parent_previous(pair)]);
     }
-    let linearised = differentiate(task, (f, pairs), numbers, room)?;
+    let mut tractions = [Vec3::zeros(); MAX_PARENT_NODES];
+    one.host_nodes(f).iter().zip(&mut tractions).for_each(|(&a, t)| *t = numbers.nodes[a].traction);
+    let at = Sides {
+        surfaces: (one, two),
+        options: &task.given.setup.options,
+        filter: task.given.step.pairing.filter.as_ref(),
+        facet_gaps: &task.given.history().facet_gaps,
+        normals: task.normals,
+        x1: numbers.x1,
+        moves: task.moves,
+        how: numbers.motion,
+        in_previous: in_previous_gaps(task.given),
+    };
+    let linearised = at.differentiate((f, pairs), (numbers.active, tractions), room)?;
     if numbers.active.is_some() && frame::is_read(task.given) {
         room.table.put_frame(&FrameBlocks::of((task.given, task.pairs), &pairs[0], &numbers.into())?.gap);
     }
@@ -98,143 +111,176 @@ pub fn of_parent<const N: usize>(
     Ok(linearised)
 }
 
-/// Adds the derivatives of a facet's weights, and what else its gaps depend on.
-fn differentiate<const N: usize>(
-    Task { given, normals, moves, .. }: Task<N>,
-    (f, pairs): (usize, &[UnionPair]),
-    numbers: &Numbers<N>,
-    ParentRoom { table, motion, overlaps, .. }: &mut ParentRoom,
-) -> Result<i64> {
-    let (one, two) = given.setup.surfaces();
-    let (Some(parents), Some(opposite)) = (&one.parents, &two.parents) else { return Ok(0) };
-    let Some(active) = numbers.active.filter(|_| pairs.iter().any(|pair| pair.is_active)) else {
-        table.carry();
-        return add_turned(given, parents, f, numbers.x1, table);
-    };
-    let (own, at) = (one.host_nodes(f), parents.at(f, &active.x1));
-    let mut tractions = [Vec3::zeros(); MAX_PARENT_NODES];
-    own.iter().zip(&mut tractions).for_each(|(&a, t)| *t = numbers.nodes[a].traction);
-    let base = at.x[0];
-    let mut x1 = at.x.map(|x| x - base);
-    let mut basis = None;
-    if given.setup.options.basis == MultiplierBasis::Dual {
-        let of_pairs = pairs.iter().filter(|pair| pair.is_active).map(|pair| active.integrated_parent(pair.place));
-        basis = one.parent_basis(f, &active.x1, of_pairs)?;
-        if basis.is_none() {
-            return Ok(0); // it has faded out
-        }
-    }
-    let dual = basis.as_ref().map(|basis| {
-        let gaps = gaps_of((one, two), active, pairs);
-        let p = [0, 1, 2, 3].map(|a| tractions[a]);
-        DualParent::new(basis, at.parent, p, &gaps, whole_area_derivative(given, parents, f, &active.x1))
-    });
-    if let Some(dual) = &dual {
-        tractions[..MAX_CORNERS].copy_from_slice(&dual.field);
-        x1 = dual.lowered(&x1);
-    }
-    if motion.is_empty() {
-        motion.store(SubMotion::default())?;
-    }
-    let motion = &mut motion[0];
-    let mut add = |tractions: &[Vec3], fields: Fields, table: &mut ParentTable| match parents.lines {
-        _ if given.setup.effects.opposite == Opposite::Analytic => {
-            let [first, end] = [parents.parts(f).start, parents.parts(f).end]
-                .map(|part| active.pairs.partition_point(|pair| pair.one < part));
-            let of = (numbers.motion.rule, tractions, fields);
-            over_surface(given, (f, base), (active, first..end), of, table, motion)
-        }
-        Some(Lines { measure, .. }) => {
-            let [first, end] = [parents.parts(f).start, parents.parts(f).end]
-                .map(|part| active.pairs.partition_point(|pair| pair.one < part));
-            let sides = (parents, opposite, moves.then_some(two));
-            Ok(add_lines(sides, (f, measure), (active, first..end), (tractions, fields), table, motion))
-        }
-        None => add_parts(given, (f, moves), (active, numbers.motion), (tractions, fields), (table, motion, overlaps)),
-    };
-    let linearised = add(&tractions, Fields::Positions { one: &x1, base }, table)?;
-    table.carry();
-    if let Some(dual) = &dual {
-        table.make_dual(dual);
-    }
-    if offsets::are_there((one, two)) {
-        let eta = dual.as_ref().map(|dual| {
-            let sums = offset_sums((one, two), active, pairs);
-            dual.basis.heights(&sums)
-        });
-        let mut h = [Vec3::zeros(); MAX_PARENT_NODES];
-        own.iter().zip(&mut h).for_each(|(&a, h)| h.x = one.offset(a));
-        if let (Some(dual), Some(eta)) = (&dual, &eta) {
-            h = dual.lowered_by(&h, &eta.map(|eta| Vec3::new(eta, 0.0, 0.0)));
-        }
-        table.begin_offsets()?;
-        add(&[Vec3::zeros(); MAX_PARENT_NODES], Fields::Offsets { one: &h, two }, table)?;
-        let mut nu = [Vec3::zeros(); MAX_PARENT_NODES];
-        own.iter().zip(&mut nu).for_each(|(&a, nu)| *nu = normals[a]);
-        table.put_offsets((nu, in_previous_gaps(given)), dual.as_ref().zip(eta.as_ref()));
-    }
-    Ok(linearised)
+/// What the facets of one tangent have in common, however many multipliers a node has.
+#[derive(Clone, Copy)]
+struct Sides<'a> {
+    surfaces: (&'a Surface, &'a Surface),
+    options: &'a Options,
+    filter: Option<&'a Filter>,
+    /// Of tied surfaces the first gaps that turn with their facets.
+    facet_gaps: &'a FacetGaps,
+    normals: &'a [Vec3],
+    /// Non-mortar positions.
+    x1: &'a [Vec3],
+    /// Whether the mortar side has rows and columns.
+    moves: bool,
+    how: PairDerivatives<'a>,
+    /// Whether offsets count in the gaps that slip is measured from.
+    in_previous: bool,
 }
 
-/// Adds the derivatives of facet f with its pairs part by part, at these tractions of its multipliers and fields; gives the number
-/// of pairs of parts.
-fn add_parts<const N: usize>(
-    given: Given<N>,
-    (f, moves): (usize, bool),
-    (active, how): (&Active, PairDerivatives),
-    (tractions, fields): (&[Vec3], Fields),
-    (table, motion, overlaps): (&mut ParentTable, &mut SubMotion, &mut FacetOverlaps),
-) -> Result<i64> {
-    let (one, two) = given.setup.surfaces();
-    let (Some(parents), Some(opposite)) = (&one.parents, &two.parents) else { return Ok(0) };
-    let mut linearised = 0;
-    for part in parents.parts(f) {
-        let first = active.pairs.partition_point(|pair| pair.one < part);
-        let of_part = active.pairs[first..].iter().take_while(|pair| pair.one == part).count();
-        if of_part == 0 {
-            continue;
-        }
-        overlaps.of(given, active, first..first + of_part)?;
-        if how.tangent == Tangent::FrozenNormals {
-            overlaps.freeze_normals();
-        }
-        let sub = parents.sub(part);
-        let rows = parents.space.nodes(parents.facets[f].parent, sub);
-        let mut p = [[0.0; MAX_CORNERS]; 3];
-        for (a, i) in (0..rows.len()).flat_map(|a| (0..3).map(move |i| (a, i))) {
-            p[i][a] = tractions[rows[a]][i];
-        }
-        for (pair, segment) in active.pairs[first..first + of_part].iter().zip(&overlaps.segments) {
-            let (g, sides) = (opposite.parent(pair.two), parents.sides(opposite, (part, pair.two)));
-            let x2 = fields.two(g, &opposite.at(g, &active.x2).x);
-            let rule = rule_for(how.rule, [sides.0.0, sides.1.0]);
-            sub_motion((overlaps.frame(), segment, rule), sides, parents.space, &p, (fields.one(), &x2), motion);
-            let mut slots = [None; 2 * MORTAR];
-            (0..sub.shape.n).for_each(|k| slots[k] = Some(sub.nodes[k]));
-            let mut columns = [None; MAX_PARENT_NODES];
-            if moves {
-                let nodes = two.host_nodes(g);
-                nodes.iter().zip(&mut columns).for_each(|(&c, to)| *to = table.column(c));
-                let other = sides.1.1;
-                (0..other.shape.n).for_each(|l| slots[MORTAR + l] = columns[other.nodes[l]]);
+impl Sides<'_> {
+    /// Adds the derivatives of a facet's weights at these tractions, and what else its gaps depend on.
+    fn differentiate(
+        &self,
+        (f, pairs): (usize, &[UnionPair]),
+        (active, mut tractions): (Option<&Active>, [Vec3; MAX_PARENT_NODES]),
+        ParentRoom { table, motion, overlaps, .. }: &mut ParentRoom,
+    ) -> Result<i64> {
+        let (one, two) = self.surfaces;
+        let (Some(parents), Some(opposite)) = (&one.parents, &two.parents) else { return Ok(0) };
+        let Some(active) = active.filter(|_| pairs.iter().any(|pair| pair.is_active)) else {
+            table.carry();
+            return self.add_turned(parents, f, table);
+        };
+        let (own, at) = (one.host_nodes(f), parents.at(f, &active.x1));
+        let base = at.x[0];
+        let mut x1 = at.x.map(|x| x - base);
+        let mut basis = None;
+        if self.options.basis == MultiplierBasis::Dual {
+            let of_pairs = pairs.iter().filter(|pair| pair.is_active).map(|pair| active.integrated_parent(pair.place));
+            basis = one.parent_basis(f, &active.x1, of_pairs)?;
+            if basis.is_none() {
+                return Ok(0); // it has faded out
             }
-            fields.add(table, motion, (&slots, &columns), rows);
-            linearised += 1;
         }
+        let dual = basis.as_ref().map(|basis| {
+            let gaps = gaps_of((one, two), active, pairs);
+            let p = [0, 1, 2, 3].map(|a| tractions[a]);
+            DualParent::new(basis, at.parent, p, &gaps, whole_area_derivative(one, parents, f, &active.x1))
+        });
+        if let Some(dual) = &dual {
+            tractions[..MAX_CORNERS].copy_from_slice(&dual.field);
+            x1 = dual.lowered(&x1);
+        }
+        if motion.is_empty() {
+            motion.store(SubMotion::default())?;
+        }
+        let motion = &mut motion[0];
+        let mut add = |tractions: &[Vec3], fields: Fields, table: &mut ParentTable| match parents.lines {
+            _ if two.analytic.is_some() => {
+                let [first, end] = [parents.parts(f).start, parents.parts(f).end]
+                    .map(|part| active.pairs.partition_point(|pair| pair.one < part));
+                let of = (self.how.rule, tractions, fields);
+                over_surface((one, two), (f, base), (active, first..end), of, table, motion)
+            }
+            Some(Lines { measure, .. }) => {
+                let [first, end] = [parents.parts(f).start, parents.parts(f).end]
+                    .map(|part| active.pairs.partition_point(|pair| pair.one < part));
+                let sides = (parents, opposite, self.moves.then_some(two));
+                Ok(add_lines(sides, (f, measure), (active, first..end), (tractions, fields), table, motion))
+            }
+            None => self.add_parts((f, active), (tractions, fields), (table, motion, overlaps)),
+        };
+        let linearised = add(&tractions, Fields::Positions { one: &x1, base }, table)?;
+        table.carry();
+        if let Some(dual) = &dual {
+            table.make_dual(dual);
+        }
+        if offsets::are_there((one, two)) {
+            let eta = dual.as_ref().map(|dual| {
+                let sums = offset_sums((one, two), active, pairs);
+                dual.basis.heights(&sums)
+            });
+            let mut h = [Vec3::zeros(); MAX_PARENT_NODES];
+            own.iter().zip(&mut h).for_each(|(&a, h)| h.x = one.offset(a));
+            if let (Some(dual), Some(eta)) = (&dual, &eta) {
+                h = dual.lowered_by(&h, &eta.map(|eta| Vec3::new(eta, 0.0, 0.0)));
+            }
+            table.begin_offsets()?;
+            add(&[Vec3::zeros(); MAX_PARENT_NODES], Fields::Offsets { one: &h, two }, table)?;
+            let mut nu = [Vec3::zeros(); MAX_PARENT_NODES];
+            own.iter().zip(&mut nu).for_each(|(&a, nu)| *nu = self.normals[a]);
+            table.put_offsets((nu, self.in_previous), dual.as_ref().zip(eta.as_ref()));
+        }
+        Ok(linearised)
     }
-    Ok(linearised)
+
+    /// Adds the derivatives of facet f with its pairs part by part, at these tractions of its multipliers and fields; gives the number
+    /// of pairs of parts.
+    fn add_parts(
+        &self,
+        (f, active): (usize, &Active),
+        (tractions, fields): (&[Vec3], Fields),
+        (table, motion, overlaps): (&mut ParentTable, &mut SubMotion, &mut FacetOverlaps),
+    ) -> Result<i64> {
+        let Sides { surfaces: (one, two), how, moves, .. } = *self;
+        let filter = self.filter.expect("weights that are differentiated are of now");
+        let (Some(parents), Some(opposite)) = (&one.parents, &two.parents) else { return Ok(0) };
+        let mut linearised = 0;
+        for part in parents.parts(f) {
+            let first = active.pairs.partition_point(|pair| pair.one < part);
+            let of_part = active.pairs[first..].iter().take_while(|pair| pair.one == part).count();
+            if of_part == 0 {
+                continue;
+            }
+            overlaps.find((one, two), (self.options, filter), active, first..first + of_part)?;
+            if how.tangent == Tangent::FrozenNormals {
+                overlaps.freeze_normals();
+            }
+            let sub = parents.sub(part);
+            let rows = parents.space.nodes(parents.facets[f].parent, sub);
+            let mut p = [[0.0; MAX_CORNERS]; 3];
+            for (a, i) in (0..rows.len()).flat_map(|a| (0..3).map(move |i| (a, i))) {
+                p[i][a] = tractions[rows[a]][i];
+            }
+            for (pair, segment) in active.pairs[first..first + of_part].iter().zip(&overlaps.segments) {
+                let (g, sides) = (opposite.parent(pair.two), parents.sides(opposite, (part, pair.two)));
+                let x2 = fields.two(g, &opposite.at(g, &active.x2).x);
+                let rule = rule_for(how.rule, [sides.0.0, sides.1.0]);
+                sub_motion((overlaps.frame(), segment, rule), sides, parents.space, &p, (fields.one(), &x2), motion);
+                let mut slots = [None; 2 * MORTAR];
+                (0..sub.shape.n).for_each(|k| slots[k] = Some(sub.nodes[k]));
+                let mut columns = [None; MAX_PARENT_NODES];
+                if moves {
+                    let nodes = two.host_nodes(g);
+                    nodes.iter().zip(&mut columns).for_each(|(&c, to)| *to = table.column(c));
+                    let other = sides.1.1;
+                    (0..other.shape.n).for_each(|l| slots[MORTAR + l] = columns[other.nodes[l]]);
+                }
+                fields.add(table, motion, (&slots, &columns), rows);
+                linearised += 1;
+            }
+        }
+        Ok(linearised)
+    }
+
+    /// Adds what the first gap, which turns with the parts of a tied facet, does to the gaps.
+    fn add_turned(&self, parents: &Parents, f: usize, table: &mut ParentTable) -> Result<i64> {
+        for part in parents.parts(f) {
+            let (sub, parent) = (parents.sub(part), parents.facets[f].parent);
+            let turned = self.facet_gaps.motion(self.surfaces.0, part, self.x1)?;
+            let Some(blocks) = turned else { continue };
+            for (a, &row) in parents.space.nodes(parent, sub).iter().enumerate() {
+                // A line's two nodes are those of its quadrilateral, each twice; a triangle has zeros for a fourth one.
+                for (k, &node) in sub.nodes.iter().enumerate() {
+                    table.add_gap(row, node, &Mat3::from_fn(|i, j| blocks[k][i][j][a]));
+                }
+            }
+        }
+        Ok(0)
+    }
 }
 
-/// The same against an analytic surface, of facet f with these places of active pairs.
-fn over_surface<const N: usize>(
-    given: Given<N>,
+/// Of facet f against an analytic surface, with these places of active pairs: as `add_parts`.
+fn over_surface(
+    (one, two): (&Surface, &Surface),
     (f, base): (usize, Vec3),
     (active, places): (&Active, Range<usize>),
     (rule, tractions, fields): (&'static Rule, &[Vec3], Fields),
     table: &mut ParentTable,
     motion: &mut SubMotion,
 ) -> Result<i64> {
-    let (one, two) = given.setup.surfaces();
     let Some(parents) = &one.parents else { return Ok(0) };
     let surface = two.analytic_at(&active.x2)?;
     let mut lowered = fields.one().map(|x| x + (base - surface.origin));
@@ -297,12 +343,7 @@ fn offset_sums((one, two): (&Surface, &Surface), active: &Active, pairs: &[Union
 }
 
 /// D|e| of a facet with respect to its nodes, the sum over its parts, each in its own plane.
-fn whole_area_derivative<const N: usize>(
-    given: Given<N>,
-    parents: &Parents,
-    f: usize,
-    x1: &[Vec3],
-) -> [Vec3; MAX_PARENT_NODES] {
+fn whole_area_derivative(one: &Surface, parents: &Parents, f: usize, x1: &[Vec3]) -> [Vec3; MAX_PARENT_NODES] {
     let mut d = [Vec3::zeros(); MAX_PARENT_NODES];
     if let Some(Lines { measure, .. }) = parents.lines {
         let of_line = line(&parents.at(f, x1)).area_derivative(measure);
@@ -310,7 +351,7 @@ fn whole_area_derivative<const N: usize>(
         return d;
     }
     for part in parents.parts(f) {
-        let (facet, sub) = (given.setup.nonmortar.facet(part, x1), parents.sub(part));
+        let (facet, sub) = (one.facet(part, x1), parents.sub(part));
         let (e, n) = (facet.area_vector().normalize(), sub.shape.n);
         for k in 0..n {
             let between = facet.nodes[(k + 1) % n] - facet.nodes[(k + n - 1) % n];
@@ -318,28 +359,6 @@ fn whole_area_derivative<const N: usize>(
         }
     }
     d
-}
-
-/// Adds what the first gap, which turns with the parts of a tied facet, does to the gaps.
-fn add_turned<const N: usize>(
-    given: Given<N>,
-    parents: &Parents,
-    f: usize,
-    x1: &[Vec3],
-    table: &mut ParentTable,
-) -> Result<i64> {
-    for part in parents.parts(f) {
-        let (sub, parent) = (parents.sub(part), parents.facets[f].parent);
-        let turned = given.history().facet_gaps.motion(&given.setup.nonmortar, part, x1)?;
-        let Some(blocks) = turned else { continue };
-        for (a, &row) in parents.space.nodes(parent, sub).iter().enumerate() {
-            // A line's two nodes are those of its quadrilateral, each twice; a triangle has zeros for a fourth one.
-            for (k, &node) in sub.nodes.iter().enumerate() {
-                table.add_gap(row, node, &Mat3::from_fn(|i, j| blocks[k][i][j][a]));
-            }
-        }
-    }
-    Ok(0)
 }
 
 /// The columns of a facet's blocks, each with its index in the table, in the order in which they are taken.

@@ -72,7 +72,7 @@ impl<'a, const N: usize> Turns<'a, N> {
         let augmented = setup.options.form == Form::Augmented;
         let mut offsets = memory::filled(0.0, if shared.is_empty() { 0 } else { lambda.len() })?;
         if !shared.is_empty() && offsets::are_there(setup.surfaces()) {
-            each_offset(setup.surfaces(), pairs, |a, offset| offsets[a] += offset);
+            each_offset(setup.surfaces(), pairs, &mut |a, offset| offsets[a] += offset);
         }
         let turn = |a: usize| -> Result<NodeTurn<N>> {
             let sum = shared.binary_search_by_key(&a, |(b, _)| *b).map_or(&sums[a], |at| &shared[at].1);
