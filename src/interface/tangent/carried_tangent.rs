@@ -53,11 +53,14 @@ pub fn multipliers<const N: usize>(a: usize, carried: bool, emitter: &mut Emitte
     }
 }
 
+/// Which nodes are carried, with the law's answers.
+pub type Answers<'a, const N: usize> = (&'a [bool], &'a [NodeResponse<N>]);
+
 /// Augmented form: the gap of the k-th node of a facet, A, if it is carried, in its carriers' tractions.
 pub fn couple<const N: usize>(
     (given, normals): (Given<N>, &[Vec3]),
     (a, k, table): (usize, usize, &dyn ReadTable),
-    (carried, row): (Option<(&[bool], &[NodeResponse<N>])>, &mut Vec<NodeBlock>),
+    (carried, row): (Option<Answers<N>>, &mut Vec<NodeBlock>),
     couplings: &mut [NodeCouplings],
 ) -> Result<()> {
     for &(b, w) in given.carriers_of(a) {
@@ -76,7 +79,7 @@ pub fn couple<const N: usize>(
 pub fn forces<const N: usize>(
     a: usize,
     couplings: &[NodeCouplings],
-    carried: Option<(&[bool], &[NodeResponse<N>])>,
+    carried: Option<Answers<N>>,
     emitter: &mut Emitter<N>,
 ) {
     let (given, normals) = (emitter.given, emitter.normals);
