@@ -213,8 +213,8 @@
 #define STICKSLIP_FORM_MULTIPLIER 0
 
 /// Forces use the projected traction (the paper's form). Same solutions.
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); equations of the frame of an analytic surface
-/// (mortar.equations); quadratic facets; lines; condensation; the tangent by sums of several handles.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); condensation; the tangent by sums of several
+/// handles.
 #define STICKSLIP_FORM_AUGMENTED 1
 
 /// P(g[n_n,x] - g[n_{n+1},x]): invariant under rigid motion within a step. Default.
@@ -249,9 +249,7 @@
 /// Normals of the current configuration, linearised: the size of a step does not decide how accurate normals are, a surface may
 /// turn by any angle within it, and a step without load moves nothing. Tied surfaces
 /// use no normals. Which facets look at each other follows the motion, too.
-/// Not with (UNSUPPORTED): frozen weights; points that decide (STICKSLIP_DECISION_POINTS); quadratic facets; lines; normals
-/// of the host; orthotropic friction; offsets and nodes that others carry (weak_coverage > 0, the default of dual
-/// multipliers) and three multipliers a node; derivatives of heat by displacements.
+/// Not with (UNSUPPORTED): frozen weights; points that decide (STICKSLIP_DECISION_POINTS); normals of the host.
 #define STICKSLIP_NORMALS_CURRENT 1
 
 /// Coulomb friction with the coefficient mu (0 allowed). Default.
@@ -262,8 +260,7 @@
 
 /// Mesh tying: a node that is covered in the first configuration keeps its place; weights of the reference. A gap at the
 /// start stays, and turns with the non-mortar facets; linear where there is none.
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); equations of the frame of an analytic surface
-/// (mortar.equations).
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS).
 #define STICKSLIP_FRICTION_TIED 2
 
 /// Opens and closes, never slips.
@@ -280,8 +277,8 @@
 
 /// The mortar side is rigid and in closed form, STICKSLIP_SHAPE_...: no facets, no search. Its stickslip_surface has
 /// four nodes (of lines three), a frame that is fixed to it and that the host moves as a rigid body: see there.
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); offsets of the mortar nodes; heat; offsets that
-/// follow from a shape.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); offsets of the mortar nodes; offsets that follow
+/// from a shape.
 #define STICKSLIP_MORTAR_ANALYTIC 2
 
 /// A plane; of lines a straight line. Default.
@@ -320,8 +317,8 @@
 /// STICKSLIP_INTEGRATION_ELEMENTS a facet whose covered points do not determine its multipliers is refused
 /// (DEGENERATE_FACET); STICKSLIP_INTEGRATION_HYBRID takes overlaps there from the next commit on. The stages
 /// have calls of their own for it.
-/// Not with (UNSUPPORTED): equations of the frame of an analytic surface (mortar.equations); multipliers at all nodes of
-/// quadratic facets or lines (STICKSLIP_SPACE_SUB); sums of several handles.
+/// Not with (UNSUPPORTED): multipliers at all nodes of quadratic facets or lines (STICKSLIP_SPACE_SUB); sums of several
+/// handles.
 #define STICKSLIP_BASIS_DUAL 1
 
 /// weak_coverage: every covered node has a multiplier of its own.
@@ -590,7 +587,7 @@
 
 /// Orthotropic friction: mu along a direction, mu_across across it. Tractions stick within an ellipse, and slip goes at a right angle to
 /// its border.
-/// Not with (UNSUPPORTED): normals of now (STICKSLIP_NORMALS_CURRENT); lines.
+/// Not with (UNSUPPORTED): lines.
 #define STICKSLIP_LAW_ORTHOTROPIC 3
 
 /// The most numbers a node that a law may remember.
@@ -723,11 +720,6 @@ typedef struct stickslip_options {
 /// frame that moves it by more than 1e-8 of the longest facet edge is refused, INVALID_VALUE. The forces on these nodes
 /// are statically equivalent to those on the surface. A facet takes part in a step when at t_n its normal opposes the
 /// surface's to within 80 degrees, as between facets; it then counts as covered.
-///
-/// A frame with equations:
-/// Not with (UNSUPPORTED): quadratic facets; lines; the augmented form (STICKSLIP_FORM_AUGMENTED); dual multipliers
-/// (STICKSLIP_BASIS_DUAL); nodes that others carry (weak_coverage > 0, the default of dual multipliers); tied surfaces
-/// (STICKSLIP_FRICTION_TIED).
 typedef struct stickslip_surface {
   /// sizeof(stickslip_surface).
   uint64_t struct_size;
@@ -2503,8 +2495,7 @@ int32_t stickslip_node_equilibrium(const struct stickslip_node *node,
 /// same. On several processes each handle needs those of all of its nodes.
 ///
 /// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS) and weights of now (STICKSLIP_WEIGHTS_CURRENT);
-/// normals of now (STICKSLIP_NORMALS_CURRENT) and nodes that others carry (weak_coverage > 0, the default of dual
-/// multipliers) and three multipliers a node; persistent weights (STICKSLIP_WEIGHTS_PERSISTENT).
+/// persistent weights (STICKSLIP_WEIGHTS_PERSISTENT).
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, UNSUPPORTED, and where pairs are sought anew those of `stickslip_interface_set_previous`.
 /// Cost: a copy; where the largest offsets change, one search. Allocates.
@@ -2704,11 +2695,12 @@ int32_t stickslip_interface_set_law_states(struct stickslip_interface *interface
 /// that do not match passes exactly. docs/formulation.md, 17.
 ///
 /// x1 (3 n1), x2 (3 n2), lambda (3 n1): as for `stickslip_interface_states`; before the commit, as there. heat: see there.
-/// temperatures1 (n1), temperatures2 (n2) [K], from any zero. Outputs: heat1 (n1), heat2 (n2) [F L/T]; nodes: NULL, or its members point
+/// temperatures1 (n1), temperatures2 (n2) [K], from any zero. An analytic mortar side has temperatures at the points of its frame: one value
+/// at all of them is a tool of one temperature, one equation for all of them a tool that stores heat. Outputs: heat1 (n1), heat2 (n2) [F L/T]; nodes: NULL, or its members point
 /// to the caller's arrays. Of a part of an interface (`owned`) they are what its own nodes give, to be added up like forces. In
 /// plane models they are of the thickness, in axisymmetric ones of the whole ring.
 ///
-/// Not with (UNSUPPORTED): an analytic mortar side; points that decide (STICKSLIP_DECISION_POINTS).
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS).
 ///
 /// Errors: as `stickslip_interface_residual` without sums; INVALID_VALUE (a member of heat), NOT_FINITE (temperatures; a result that
 /// overflows), UNSUPPORTED.
@@ -2734,8 +2726,6 @@ int32_t stickslip_interface_heat(struct stickslip_interface *interface,
 /// multipliers that the interface was created with. Outputs: rows, columns, values (capacity each), count. With all three arrays
 /// NULL only count is written, and capacity is not read. Entries of [F L/(T K)], [F/T], [L^3/T]. After NOT_FINITE because a value
 /// overflows, values mean nothing.
-///
-/// Not with (UNSUPPORTED): normals of now (STICKSLIP_NORMALS_CURRENT).
 ///
 /// Errors: those of `stickslip_interface_heat`, INDEX_OUT_OF_RANGE (an equation below the base), INVALID_VALUE (which), BUFFER_TOO_SMALL,
 /// UNSUPPORTED.
