@@ -8,7 +8,8 @@
 //! several mortar facets share has a place in each of them, and a host adds these up.
 
 use super::facet_pairs::FacetPairs;
-use super::tangent::{FacetResponse, PairNow, PairTangent, row_columns};
+use super::response::FacetResponse;
+use super::tangent::{PairNow, PairTangent, row_columns};
 use crate::dual::{Columns, DualBasis, FacetMotion, FacetSums, GROUP, PairShare, TractionDerivatives, couple};
 use crate::error::{Error, Kind, Result};
 use crate::mortar::{

@@ -4,7 +4,7 @@
 //! Dc_A = (dc/dg_now) Dg_A + (dc/dg_previous) Dg_A at t_n's weights, with Dg_A = e Dgamma_A + gamma_A De, or n_A where weights are
 //! fixed, or blocks of the facet's own nodes against an analytic surface; and drow . nu Do_A of the nodes' offsets.
 
-use super::tangent::FacetResponse;
+use super::response::FacetResponse;
 use crate::geometry::{Mat3, Vec3};
 use crate::mortar::{AlongNormal, GapBlocks};
 use crate::shape::{MAX_CORNERS, MAX_NODES};

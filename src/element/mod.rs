@@ -8,6 +8,7 @@ mod nodal;
 mod pair_matrix;
 mod parent;
 mod residual;
+mod response;
 mod tangent;
 
 pub use dual_facet::DualFacet;
@@ -17,4 +18,5 @@ pub use nodal::{NodalPair, NodalWeights, column_force};
 pub use pair_matrix::{Lines, write_pair};
 pub use parent::{ParentPair, parent_force};
 pub use residual::pair_force;
-pub use tangent::{FacetResponse, NodeTangent, PairNow, PairTangent, RowColumns, row_columns};
+pub use response::{FacetResponse, NodeTangent};
+pub use tangent::{PairNow, PairTangent, RowColumns, row_columns};

@@ -2,7 +2,7 @@
 //! (11), (23), (29)-(31); docs/formulation.md 12.4, 13.4). They are sums over the nodes of both sides, for gaps of a quadratic pair
 //! are not along a normal. D is the number of components of a position.
 
-use super::tangent::NodeTangent;
+use super::response::NodeTangent;
 use nalgebra::{SMatrix, SVector};
 
 /// n_AB and n_AC, row A; W is the most nodes that a facet of the kind has.

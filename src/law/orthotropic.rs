@@ -90,7 +90,7 @@ impl Law<3> for Orthotropic {
         turn.dp_dnormal = l * turn.dp_dnormal;
         let Some(axes) = ellipse.axes(node.normal).filter(|_| response.state != State::Gap) else { return turn };
         let mu = [node.mu, ellipse.across];
-        let is_shadow = has_one_direction(node);
+        let (is_shadow, (_, committed)) = (has_one_direction(node), node.slip.coefficients());
         for (i, change) in [Vec3::x(), Vec3::y(), Vec3::z()].into_iter().enumerate() {
             let d = ellipse.turned_axes(node.normal, axes, change);
             let mut column = turn.dp_dnormal.column_mut(i);
@@ -105,8 +105,9 @@ impl Law<3> for Orthotropic {
             let size = (mu[0] / mu[1]).sqrt();
             let stretch = one * (size - 1.0) + two * (1.0 / size - 1.0);
             let inverse = one * (1.0 / size - 1.0) + two * (size - 1.0);
+            let previous = node.gap_previous - node.gap_committed * committed;
             let by_gaps =
-                response.drow_dnow * (stretch * node.gap_now) + response.drow_dprevious * (stretch * node.gap_previous);
+                response.drow_dnow * (stretch * node.gap_now) + response.drow_dprevious * (stretch * previous);
             column += stretch * response.traction + l * (response.dp_dlambda * (inverse * node.lambda) + by_gaps * r);
         }
         Turn { dp_dnormal: turn.dp_dnormal, drow_dnormal: turn.dp_dnormal / r }

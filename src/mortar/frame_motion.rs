@@ -13,11 +13,14 @@ use crate::error::Result;
 use crate::geometry::{FRAME, Mat3, Vec3};
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
 
+/// Dg_A / DP_D: `[A][D]`.
+pub type FrameGaps = [[Mat3; FRAME]; MAX_PARENT_NODES];
+
 /// Derivatives of the weights and gaps of a facet with its own nodes and the frame of an analytic surface; A and k are nodes of the facet.
 #[derive(Clone, Debug, Default)]
 pub struct FrameMotion {
-    /// Dg_A / DP_D: `[A][D]`.
-    pub gap: [[Mat3; FRAME]; MAX_PARENT_NODES],
+    /// Dg_A / DP_D.
+    pub gap: FrameGaps,
     /// Dn_AC / DP_D: `[A][C][D]`.
     pub by_frame: [[[Vec3; FRAME]; FRAME]; MAX_PARENT_NODES],
     /// Dn_AC / Dx_k: `[A][C][k]`.

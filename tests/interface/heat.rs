@@ -13,7 +13,7 @@ use stickslip::interface::{
     Contact, Decision, Form, Friction, Heat, Interface, MultiplierBasis, NO_EQUATION, NO_WEAK_COVERAGE, Normals,
     Options, Scheme, Surface, Temperatures, Weights,
 };
-use stickslip::law::Conductance;
+use stickslip::law::{Conductance, SlipMeasure};
 use stickslip::line::Measure;
 use stickslip::mortar::MultiplierSpace;
 use stickslip::quadrature::DEGREE_10;
@@ -204,6 +204,17 @@ fn the_same_with_one_multiplier_carried_nodes_points_and_offsets() {
             let mut t = moved(&of, [Cells::Quads, Cells::Quads], FLAT, 3);
             Scene::new(&mut t.interface, [&t.x1, &t.x2], &t.lambda, (3, 3)).check(&ALL, &format!("{basis:?} points"));
         }
+    }
+}
+
+#[test]
+fn the_same_with_every_measure_of_slip() {
+    for (slip, normals) in
+        [SlipMeasure::Increment, SlipMeasure::Paper].into_iter().flat_map(|slip| NORMALS.map(|normals| (slip, normals)))
+    {
+        let mut t = moved(&Options { slip, normals, ..options() }, [Cells::Triangles; 2], FLAT, 3);
+        let what = format!("{slip:?} {normals:?}");
+        Scene::new(&mut t.interface, [&t.x1, &t.x2], &t.lambda, (3, 3)).check(&ALL, &what);
     }
 }
 

@@ -466,11 +466,13 @@ fn what_is_no_law_is_refused_by_name() {
 #[test]
 fn an_ellipse_turns_with_normals_of_now() {
     for (form, across) in [Form::Multiplier, Form::Augmented].into_iter().flat_map(|f| [0.2, 0.6, MU].map(|m| (f, m))) {
-        let of = Options { mu: MU, form, normals: Normals::Current, ..options() };
-        let mut t = moved(&of, [Cells::Triangles; 2], FLAT, 3);
-        t.interface.set_law(Some(ellipse(across))).unwrap();
-        let error = error(&mut t.interface, (&t.x1, &t.x2), &t.lambda);
-        assert!(error <= DIFFERENCES, "{form:?}, {across} across: {error:e}");
+        for slip in [SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Paper] {
+            let of = Options { mu: MU, form, slip, normals: Normals::Current, ..options() };
+            let mut t = moved(&of, [Cells::Triangles; 2], FLAT, 3);
+            t.interface.set_law(Some(ellipse(across))).unwrap();
+            let error = error(&mut t.interface, (&t.x1, &t.x2), &t.lambda);
+            assert!(error <= DIFFERENCES, "{form:?}, {slip:?}, {across} across: {error:e}");
+        }
     }
 }
 

@@ -286,7 +286,8 @@ fn node<const N: usize>(
         (now, if in_previous { before + offset } else { before })
     };
     let slips = given.setup.effects.law.slips && given.history().coverage[a] > given.least_coverage(a);
-    let (coefficient, free) = (given.setup.options.effective_slip().coefficients().0, given.setup.nodes.free[a]);
+    let (coefficient, committed) = given.setup.options.effective_slip().coefficients();
+    let free = given.setup.nodes.free[a];
     let along = free * response.traction;
     let along = if slips { along - nu * nu.dot(&along) } else { Vec3::zeros() };
     let mut node = Node::default();
@@ -309,7 +310,8 @@ fn node<const N: usize>(
     if let Some(turning) = turning {
         // Of the gap nu . g, of the pressure - nu . p and of the work p . P s, by nu alone.
         let sum = &at.sums[a];
-        let (g, s) = (sum.gap_now, free * (sum.gap_previous - sum.gap_now * coefficient));
+        let (g, s) =
+            (sum.gap_now, free * (sum.gap_previous - sum.gap_now * coefficient - sum.gap_committed * committed));
         let p = response.traction;
         let work = if slips { -(p * nu.dot(&s) + s * nu.dot(&p)) } else { Vec3::zeros() };
         turning.add(given, a, sides(&|slope| g * slope[2] - p * slope[1] + work * slope[4]), &mut node)?;

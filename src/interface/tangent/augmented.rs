@@ -2,14 +2,20 @@
 //! projected traction, with its derivative n_AB (dp/dsigma) r Dg_A. Of the multiplier form it is n_AB lambda_N Dnu_A where nodes
 //! have one multiplier and normals follow the motion.
 
-use super::emission::NodeBlock;
-use super::read::{ReadTable, matrix};
+use super::read::{NodeBlock, ReadTable, matrix};
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::multiplier::direction;
+use crate::interface::data::options::Form;
 use crate::interface::pairing::given::Given;
 use crate::law::NodeResponse;
 use crate::memory::Store;
+
+/// Whether the tangent has what couples all pairs of a node.
+pub fn is_coupled<const N: usize>(given: Given<N>) -> bool {
+    let options = &given.setup.options;
+    options.form == Form::Augmented || (options.follows_normals() && N == 1)
+}
 
 /// dp/dg_now and dp/dg_previous of a node.
 pub fn dtraction<const N: usize>(given: Given<N>, a: usize, response: &NodeResponse<N>, nu: Vec3) -> (Mat3, Mat3) {

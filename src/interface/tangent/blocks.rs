@@ -3,7 +3,7 @@
 //! The list of pairs (`union.rs`) says which blocks there are. One loop walks through it, whether the blocks have numbers or
 //! are asked for alone: a count, a pattern and a fill have the same entries in the same order.
 
-use super::augmented::{NodeCouplings, dtraction};
+use super::augmented::{NodeCouplings, dtraction, is_coupled};
 use super::carried_tangent;
 use super::emission::{Emitter, MortarBlock, NodeBlock, Span, Takers};
 use super::facet_table::FacetTable;
@@ -136,12 +136,6 @@ fn beyond_facet<const N: usize>(
     carried_tangent::rows((f, table), numbers.map(Numbers::carried), row, emitter)?;
     let at = (emitter.given, emitter.normals);
     couplings.map_or(Ok(()), |couplings| couple(at, (f, table), (numbers, row), couplings))
-}
-
-/// Whether the tangent has what couples all pairs of a node.
-pub fn is_coupled<const N: usize>(given: Given<N>) -> bool {
-    let options = &given.setup.options;
-    options.form == Form::Augmented || (options.follows_normals() && N == 1)
 }
 
 /// The blocks of the pairs of these facets.

@@ -4,6 +4,7 @@
 //! Which blocks there are depends on the pairs, never on the values, so a pattern and a fill always agree.
 
 use super::augmented::NodeCouplings;
+pub use super::read::NodeBlock;
 use crate::dual::Columns;
 use crate::geometry::Vec3;
 use crate::interface::data::extent::Extent;
@@ -49,9 +50,6 @@ pub struct MortarBlock<'a> {
 
 /// d force / d x of columns, `[k][j][i][B]`, and the weights of the facet's multipliers there, `[A][k]`.
 pub type FacetNow<'a> = (&'a [[[[f64; MAX_NODES]; 3]; 3]], &'a [[f64; MAX_NODES]; MAX_CORNERS]);
-
-/// `[j][i]`: component i of a row with respect to component j of a column's node, and a fourth number that nobody takes.
-pub type NodeBlock = [[f64; 4]; 3];
 
 /// `[i][j]`: component i of a row with respect to component j of a column's node, each with a fourth number that nobody takes; the
 /// fourth row is that of a multiplier beside three of displacements.

@@ -4,9 +4,7 @@
 //! forces. Four nodes of the facet stand in lanes.
 
 use super::dual_facet::DualFacet;
-use super::emission::NodeBlock;
-use super::frame::FrameGaps;
-use super::read::ReadTable;
+use super::read::{NodeBlock, ReadTable};
 use super::union::{Pairs, UnionPair};
 use crate::dual::{Columns, FacetColumns, FacetMotion, FacetShare, GROUP};
 use crate::element::{Along, FacetGaps, FacetResponse, Raise, Rows, Slopes, facet_rows, node_row};
@@ -15,7 +13,9 @@ use crate::geometry::Mat3;
 use crate::interface::data::facet_nodes::FacetNodes;
 use crate::interface::data::surface::Surface;
 use crate::memory::{self, Store};
-use crate::mortar::{AlongNormal, AreaDerivatives, ForceDerivatives, GapBlocks, MORTAR, PAIR_NODES, PairWeights};
+use crate::mortar::{
+    AlongNormal, AreaDerivatives, ForceDerivatives, FrameGaps, GapBlocks, MORTAR, PAIR_NODES, PairWeights,
+};
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 use crate::simd::{self, Kernel, Lanes};
 use std::ops::Range;

@@ -10,7 +10,7 @@
 //!
 //! They belong to no facet alone: a frame has rows in common with all of them.
 
-use super::blocks::is_coupled;
+use super::augmented::is_coupled;
 use super::emission::{Directions, Emitter, NodeBlock, Place, Weights};
 use super::read::square;
 use super::task::Numbers;
@@ -24,7 +24,7 @@ use crate::interface::data::options::{Form, MultiplierBasis};
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::facet::dual_basis;
-use crate::mortar::{FrameMotion, MultiplierSpace, SurfacePair, area_element};
+use crate::mortar::{FrameGaps, FrameMotion, MultiplierSpace, SurfacePair, area_element};
 use crate::quadrature::Rule;
 use crate::shape::{MAX_PARENT_NODES, Parent};
 
@@ -46,9 +46,6 @@ impl<'a, const N: usize> From<&'a Numbers<'a, N>> for FrameNumbers<'a, N> {
         FrameNumbers { nodes: n.nodes, active: n.active, surface: n.motion.surface, rule: n.motion.rule }
     }
 }
-
-/// Dg_A / DP_D: `[A][D]`.
-pub type FrameGaps = [[Mat3; FRAME]; MAX_PARENT_NODES];
 
 /// Of a facet of the host; A and k are its nodes.
 #[derive(Debug, Default)]

@@ -1,16 +1,14 @@
 //! What a facet of the host adds up over its parts before its blocks leave, where either side has quadratic facets: derivatives
 //! over its own nodes and those of its mortar facets (docs/formulation.md 12.5).
 
-use super::emission::NodeBlock;
-use super::frame::FrameGaps;
-use super::read::{ReadTable, matrix};
+use super::read::{NodeBlock, ReadTable, matrix};
 use super::union::UnionPair;
 use crate::dual::{DualBasis, corner_shares};
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::surface::Surface;
 use crate::memory::{self, Store};
-use crate::mortar::{MORTAR, ParentWeights, SubMotion};
+use crate::mortar::{FrameGaps, MORTAR, ParentWeights, SubMotion};
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES, Parent};
 
 /// A mortar node of a facet's pairs.

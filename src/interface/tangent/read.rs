@@ -1,9 +1,11 @@
 //! What features read of a facet's table, whichever kernels have filled it.
 
-use super::emission::NodeBlock;
 use crate::error::Result;
 use crate::geometry::Mat3;
 use nalgebra::SMatrix;
+
+/// `[j][i]`: component i of a row with respect to component j of a column's node, and a fourth number that nobody takes.
+pub type NodeBlock = [[f64; 4]; 3];
 
 /// A facet's table, once it is filled.
 pub trait ReadTable {
