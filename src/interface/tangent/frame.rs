@@ -62,7 +62,9 @@ pub struct FrameBlocks {
 fn mortar_weight(all: Pairs, pair: &UnionPair, a: usize, c: usize, is_now: bool) -> f64 {
     let linear = if is_now { all.now(pair) } else { all.previous(pair) };
     let of_parents = if is_now { all.parent_now(pair) } else { all.parent_previous(pair) };
-    of_parents.map_or_else(|| linear.map_or(0.0, |n| n.ac[a][c]), |n| n.ac[a][c])
+    // Parents that have no weights then have no linear ones either, of fewer multipliers.
+    let linear = linear.and_then(|n| n.ac.get(a)).map(|n| n[c]);
+    of_parents.map(|n| n.ac[a][c]).or(linear).unwrap_or_default()
 }
 
 impl FrameBlocks {
