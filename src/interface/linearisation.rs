@@ -149,7 +149,7 @@ impl<const N: usize> Contact<N> {
     /// The plan of this that was made last.
     ///
     /// # Errors
-    /// [`Kind::InvalidValue`]: there is none.
+    /// [`crate::error::Kind::InvalidValue`]: there is none.
     pub fn plan(&self, system: System) -> Result<(&Plan, PlanOf<'_>)> {
         let condensed = self.linear.condensed.as_ref();
         self.with_numbering(match system {
@@ -169,7 +169,7 @@ impl<const N: usize> Contact<N> {
     /// The tangent at (x, lambda) in the order of the plan's entries. After an error the values mean nothing.
     ///
     /// # Errors
-    /// [`Kind::MissingEntry`]: the plan does not suffice here.
+    /// [`crate::error::Kind::MissingEntry`]: the plan does not suffice here.
     pub fn plan_values(
         &mut self,
         x: Positions,
