@@ -24,7 +24,7 @@ use crate::shape::{MAX_CORNERS, MAX_NODES};
 use crate::simd::{self, Kernel, Lanes};
 
 /// A point of the facet and the closest one of the surface.
-pub(super) struct Place {
+struct Place {
     /// x - P0.
     pub x: Vec3,
     /// The surface there.
@@ -46,13 +46,13 @@ impl Place {
 
 /// The facet's nodes - P0. Differences of nodes and P0 come first: exact under a common offset.
 #[inline(always)]
-pub(super) fn corners(frame: &NonmortarFrame, surface: &AnalyticSurface) -> [Vec3; MAX_CORNERS] {
+fn corners(frame: &NonmortarFrame, surface: &AnalyticSurface) -> [Vec3; MAX_CORNERS] {
     let x = &frame.projection.x;
     [x[0] - surface.origin, x[1] - surface.origin, x[2] - surface.origin, x[3] - surface.origin]
 }
 
 /// A quadrature point of the facet.
-pub(super) struct Point {
+struct Point {
     /// Weight on the reference cell; times `area` it is an area [L^2].
     pub weight: f64,
     /// The area element j = det J [L^2].
@@ -66,13 +66,13 @@ pub(super) struct Point {
 
 /// Quadrature points of the facet's cell.
 #[inline(always)]
-pub(super) fn cell_points(frame: &NonmortarFrame, rule: &Rule) -> usize {
+fn cell_points(frame: &NonmortarFrame, rule: &Rule) -> usize {
     if frame.projection.shape.n == 3 { rule.triangle.len() } else { rule.square.len() * rule.square.len() }
 }
 
 /// The i-th of them.
 #[inline(always)]
-pub(super) fn point(
+fn point(
     frame: &NonmortarFrame,
     surface: &AnalyticSurface,
     corners: &[Vec3; MAX_CORNERS],

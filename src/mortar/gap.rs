@@ -48,7 +48,7 @@ impl Kernel for Gap<'_> {
 
 /// The columns of weights, lanes A.
 #[inline(always)]
-pub fn columns<L: Lanes>([a, b, c, d]: &[[f64; MAX_NODES]; MAX_CORNERS]) -> [L; MAX_NODES] {
+fn columns<L: Lanes>([a, b, c, d]: &[[f64; MAX_NODES]; MAX_CORNERS]) -> [L; MAX_NODES] {
     L::transpose([L::load(a), L::load(b), L::load(c), L::load(d)])
 }
 

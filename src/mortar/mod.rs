@@ -47,7 +47,7 @@ pub use derivatives::{pair_motion, pair_motion_raised};
 pub use each_point::{OverlapPoint, each_point};
 pub use field::MultiplierSpace;
 pub use frame_motion::{FrameGaps, FrameMotion};
-pub use gap::{AlongNormal, GapBlocks, Raised, columns, gap, height_gap};
+pub use gap::{AlongNormal, GapBlocks, Raised, gap, height_gap};
 pub use offset::offset_motion;
 pub use pair_weights::PairWeights;
 pub use parent_pair::{ParentDerivatives, ParentFacet, ParentWeights, parent_weights};

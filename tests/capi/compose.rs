@@ -135,41 +135,7 @@ impl<'a> Case<'a> {
 
     /// Dense, of n columns: with motions of a frame in place of its points.
     fn tangent(&self) -> (Vec<f64>, usize) {
-        let n = self.ends()[3];
-        let ([x1, x2], lambda) = ([self.x[0].as_ptr(), self.x[1].as_ptr()], self.lambda.as_ptr());
-        let (none, mut count) = (null_mut(), 0);
-        ok!(stickslip_interface_tangent_coo(
-            self.handle,
-            x1,
-            x2,
-            lambda,
-            null(),
-            0,
-            null_mut(),
-            null_mut(),
-            none,
-            &mut count
-        ));
-        let (mut rows, mut columns) = (vec![-1; count as usize], vec![-1; count as usize]);
-        let mut values = vec![f64::NAN; count as usize];
-        let (to_rows, to_columns) = (rows.as_mut_ptr(), columns.as_mut_ptr());
-        let (to, capacity) = (values.as_mut_ptr(), count);
-        ok!(stickslip_interface_tangent_coo(
-            self.handle,
-            x1,
-            x2,
-            lambda,
-            null(),
-            capacity,
-            to_rows,
-            to_columns,
-            to,
-            &mut count
-        ));
-        let mut k = vec![0.0; n * n];
-        for ((row, column), value) in rows.into_iter().zip(columns).zip(values) {
-            k[row as usize * n + column as usize] += value;
-        }
+        let (n, k) = (self.ends()[3], dense_tangent(self.handle, [&self.x[0], &self.x[1], &self.lambda]));
         if self.of["shape"].is_null() {
             return (k, n);
         }

@@ -401,42 +401,36 @@ impl Golden {
     }
 
     pub fn tangent(&self) -> Vec<f64> {
-        let n = self.ends()[3];
-        let (x1, x2, lambda) = (self.x1.as_ptr(), self.x2.as_ptr(), self.lambda.as_ptr());
-        let mut count = 0;
-        ok!(stickslip_interface_tangent_coo(
-            self.handle,
-            x1,
-            x2,
-            lambda,
-            null(),
-            0,
-            null_mut(),
-            null_mut(),
-            null_mut(),
-            &mut count
-        ));
-        let capacity = count as usize;
-        let (mut rows, mut columns, mut values) = (vec![-1; capacity], vec![-1; capacity], vec![f64::NAN; capacity]);
-        ok!(stickslip_interface_tangent_coo(
-            self.handle,
-            x1,
-            x2,
-            lambda,
-            null(),
-            count,
-            rows.as_mut_ptr(),
-            columns.as_mut_ptr(),
-            values.as_mut_ptr(),
-            &mut count
-        ));
-        assert_eq!(count as usize, capacity);
-        let mut k = vec![0.0; n * n];
-        for ((row, column), value) in rows.into_iter().zip(columns).zip(values) {
-            k[row as usize * n + column as usize] += value;
-        }
-        k
+        dense_tangent(self.handle, [&self.x1, &self.x2, &self.lambda])
     }
+}
+
+/// The tangent at these positions and multipliers, whose equations are numbered one after the other.
+pub(super) fn dense_tangent(handle: *mut stickslip_interface, at: [&[f64]; 3]) -> Vec<f64> {
+    let n = at.iter().map(|of| of.len()).sum::<usize>();
+    let [x1, x2, lambda] = at.map(<[f64]>::as_ptr);
+    let (mut count, none) = (0, null_mut());
+    ok!(stickslip_interface_tangent_coo(handle, x1, x2, lambda, null(), 0, null_mut(), null_mut(), none, &mut count));
+    let (mut rows, mut columns) = (vec![-1; count as usize], vec![-1; count as usize]);
+    let (mut values, capacity) = (vec![f64::NAN; count as usize], count);
+    ok!(stickslip_interface_tangent_coo(
+        handle,
+        x1,
+        x2,
+        lambda,
+        null(),
+        capacity,
+        rows.as_mut_ptr(),
+        columns.as_mut_ptr(),
+        values.as_mut_ptr(),
+        &mut count
+    ));
+    assert_eq!(count, capacity);
+    let mut k = vec![0.0; n * n];
+    for ((row, column), value) in rows.into_iter().zip(columns).zip(values) {
+        k[row as usize * n + column as usize] += value;
+    }
+    k
 }
 
 /// Worst error over the blocks (f1, f2, c), each relative to its largest entry.

@@ -144,15 +144,7 @@ pub fn each_facet<const N: usize>(
         for first in (0..own.len()).step_by(3) {
             let count = (own.len() - first).min(3);
             (0..count).for_each(|i| nodes[own[first + i]].traction[i] = 1.0);
-            let numbers = Numbers {
-                x1: &active.x1,
-                sums: &[],
-                responses,
-                nodes: &nodes,
-                active: Some(active),
-                motion,
-                turns: None,
-            };
+            let numbers = Numbers::of_weights(active, responses, &nodes, motion);
             let pairs = Pairs::Union([&active.pairs, &[]]);
             let task = Task { given, normals, pairs, extent: Extent::Part, moves: true, numbers: Some(&numbers) };
             let mut taker = Taker { to: &mut weights, sides: [one, two], facet, first, count };
@@ -188,15 +180,7 @@ fn each_parent<const N: usize>(
             for (i, a) in (a..a + here).enumerate() {
                 nodes[own[a]].traction[i] = 1.0;
             }
-            let numbers = Numbers {
-                x1: &active.x1,
-                sums: &[],
-                responses,
-                nodes: &nodes,
-                active: Some(active),
-                motion,
-                turns: None,
-            };
+            let numbers = Numbers::of_weights(active, responses, &nodes, motion);
             let (pairs, numbers) = (all, Some(&numbers));
             let task = Task { given, normals, pairs, extent: Extent::Part, moves: true, numbers };
             parents::fill(task, &of_facet, &mut room)?;
@@ -277,7 +261,7 @@ fn make_dual((basis, at): (&DualBasis, FacetPair), motion: &FrameMotion, to: &mu
         }
         for a in 0..m {
             let area: Vec3 = (0..m).map(|e| mass(a, e, c)).sum();
-            let of: Vec3 = (0..m).map(|b| rest[b] * (basis.areas[a] * inverse(a, b))).sum();
+            let of: Vec3 = (0..m).map(|b| rest[b] * coefficients[a][b]).sum();
             *to.slope(a, k, c) = of + area * solved(a);
         }
     }

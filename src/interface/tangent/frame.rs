@@ -100,8 +100,8 @@ impl FrameBlocks {
         let (own, multipliers) = (at.one.host_nodes(at.pair.one).len(), at.one.multipliers(at.pair.one));
         at.add_motion((surface, rule), &mut motion)?;
         if let Some(basis) = at.basis()? {
-            let (inverse, p) = (basis.coefficients(), [0, 1, 2].map(|i| [0, 1, 2, 3].map(|a| t[a][i])));
-            let inverse = |a: usize, b: usize| inverse[a][b] / basis.areas[a];
+            let (coefficients, p) = (basis.coefficients(), [0, 1, 2].map(|i| [0, 1, 2, 3].map(|a| t[a][i])));
+            let inverse = |a: usize, b: usize| coefficients[a][b] / basis.areas[a];
             let q = basis.tractions(&p);
             let q = |a: usize| Vec3::new(q[0][a], q[1][a], q[2][a]);
             let shares = corner_shares(at.parent());
@@ -118,7 +118,7 @@ impl FrameBlocks {
             }
             let gap = motion.gap;
             for (a, d) in (0..multipliers).flat_map(|a| (0..FRAME).map(move |d| (a, d))) {
-                motion.gap[a][d] = (0..multipliers).map(|b| gap[b][d] * (basis.areas[a] * inverse(a, b))).sum();
+                motion.gap[a][d] = (0..multipliers).map(|b| gap[b][d] * coefficients[a][b]).sum();
             }
             (0..multipliers).for_each(|a| t[a] = q(a));
         }

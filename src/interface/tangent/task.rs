@@ -30,7 +30,16 @@ pub struct Numbers<'a, const N: usize> {
     pub turns: Option<Turns<'a, N>>,
 }
 
-impl<const N: usize> Numbers<'_, N> {
+impl<'a, const N: usize> Numbers<'a, N> {
+    /// For the derivatives of weights alone, of forces at the tractions of `nodes`.
+    pub fn of_weights(
+        active: &'a Active,
+        responses: &'a Responses<N>,
+        nodes: &'a [NodeTangent<N>],
+        motion: PairDerivatives<'a>,
+    ) -> Numbers<'a, N> {
+        Numbers { x1: &active.x1, sums: &[], responses, nodes, active: Some(active), motion, turns: None }
+    }
     /// Which nodes are carried, with what the pairs must know of their carriers.
     pub fn carried(&self) -> (&[bool], &[NodeTangent<N>]) {
         (&self.responses.carried, self.nodes)
