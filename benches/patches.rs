@@ -65,7 +65,7 @@ impl Patches {
         let (n1, n2) = (x1.len(), x2.len());
         let upper = Surface::new("nonmortar", x1.clone(), &facets1, equations(n1, 0)).expect("a patch");
         let lower = Surface::new("mortar", x2.clone(), &facets2, equations(n2, 3 * n1)).expect("a patch");
-        let mut options = Options::new(Stiffness::Modulus(1000.0));
+        let mut options = Options::paper(Stiffness::Modulus(1000.0));
         options.mu = 0.3;
         let contact = Interface::new(upper, lower, equations(n1, 3 * (n1 + n2)), options).expect("an interface");
         let lambda = vec![Vec3::new(0.0, 0.0, -1.0); n1];

@@ -50,7 +50,7 @@ fn model() -> Model {
 
 fn options(decision: Decision) -> Options {
     let (basis, weights) = (MultiplierBasis::Dual, Weights::Reference);
-    Options { basis, decision, weights, mu: MU, ..Options::new(Stiffness::Modulus(MODULUS)) }
+    Options { basis, decision, weights, mu: MU, ..Options::paper(Stiffness::Modulus(MODULUS)) }
 }
 
 /// Without friction.

@@ -69,14 +69,16 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_SLIP_INCREMENT = 1
   integer(c_int32_t), parameter :: STICKSLIP_SLIP_PAPER = 2
 
-  integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_CURRENT = 0
-  integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_COMMITTED = 1
-  integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_REFERENCE = 2
-  integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_PERSISTENT = 3
+  integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_AUTO = 0
+  integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_CURRENT = 1
+  integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_COMMITTED = 2
+  integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_REFERENCE = 3
+  integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_PERSISTENT = 4
 
   ! Normals: of the last commit; of the current configuration, linearised, with current weights and averaged normals only.
-  integer(c_int32_t), parameter :: STICKSLIP_NORMALS_COMMITTED = 0
-  integer(c_int32_t), parameter :: STICKSLIP_NORMALS_CURRENT = 1
+  integer(c_int32_t), parameter :: STICKSLIP_NORMALS_AUTO = 0
+  integer(c_int32_t), parameter :: STICKSLIP_NORMALS_COMMITTED = 1
+  integer(c_int32_t), parameter :: STICKSLIP_NORMALS_CURRENT = 2
 
   integer(c_int32_t), parameter :: STICKSLIP_FRICTION_COULOMB = 0
   integer(c_int32_t), parameter :: STICKSLIP_FRICTION_NONE = 1
@@ -98,8 +100,9 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_SHORTCUT_APART = 4
   integer(c_int32_t), parameter :: STICKSLIP_SHORTCUT_UNCOVERED = 8
 
-  integer(c_int32_t), parameter :: STICKSLIP_BASIS_STANDARD = 0
-  integer(c_int32_t), parameter :: STICKSLIP_BASIS_DUAL = 1
+  integer(c_int32_t), parameter :: STICKSLIP_BASIS_AUTO = 0
+  integer(c_int32_t), parameter :: STICKSLIP_BASIS_STANDARD = 1
+  integer(c_int32_t), parameter :: STICKSLIP_BASIS_DUAL = 2
 
   ! weak_coverage: every covered node has a multiplier of its own.
   real(c_double), parameter :: STICKSLIP_WEAK_COVERAGE_NONE = -1.0_c_double
@@ -618,6 +621,18 @@ module stickslip
       import :: c_int32_t, c_int64_t, stickslip_options
       type(stickslip_options), intent(inout) :: options
       integer(c_int64_t), value :: struct_size
+    end function
+
+    ! After stickslip_options_init: the paper's element, standard multipliers with normals of the last commit.
+    integer(c_int32_t) function stickslip_options_paper(options) bind(C)
+      import :: c_int32_t, stickslip_options
+      type(stickslip_options), intent(inout) :: options
+    end function
+
+    ! Replaces what is AUTO by what an interface with these options takes.
+    integer(c_int32_t) function stickslip_options_settle(options) bind(C)
+      import :: c_int32_t, stickslip_options
+      type(stickslip_options), intent(inout) :: options
     end function
 
     ! Splits the nodes on creases until no fan of facets around a node spans more than angle (radians):

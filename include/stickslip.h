@@ -228,29 +228,36 @@
 /// and friction (STICKSLIP_FRICTION_COULOMB).
 #define STICKSLIP_SLIP_PAPER 2
 
-/// Weights of the current configuration, linearised: large sliding. Default.
-#define STICKSLIP_WEIGHTS_CURRENT 0
+/// Of now; with STICKSLIP_DECISION_POINTS and friction those of the last commit. Default.
+#define STICKSLIP_WEIGHTS_AUTO 0
+
+/// Weights of the current configuration, linearised: large sliding.
+#define STICKSLIP_WEIGHTS_CURRENT 1
 
 /// Weights frozen at the last commit.
-#define STICKSLIP_WEIGHTS_COMMITTED 1
+#define STICKSLIP_WEIGHTS_COMMITTED 2
 
 /// Weights, normals and areas frozen at the first configuration: small displacements.
-#define STICKSLIP_WEIGHTS_REFERENCE 2
+#define STICKSLIP_WEIGHTS_REFERENCE 3
 
 /// Weights frozen at the last commit, and what overlaps there counts as closed: a step need not part it. The work of the contact forces over a
 /// step is then never positive, whatever slides and turns: for dynamics.
 /// Not with (UNSUPPORTED): the paper's slip measure (STICKSLIP_SLIP_PAPER); points that decide (STICKSLIP_DECISION_POINTS);
 /// offsets.
-#define STICKSLIP_WEIGHTS_PERSISTENT 3
+#define STICKSLIP_WEIGHTS_PERSISTENT 4
 
-/// Normals nu of the last commit, as in the paper: data of a step. Default.
-#define STICKSLIP_NORMALS_COMMITTED 0
+/// Of now, unless weights are frozen, points decide or the host gives normals: then of the last commit. Default.
+#define STICKSLIP_NORMALS_AUTO 0
+
+/// Normals nu of the last commit, as in the paper: data of a step. Where surfaces turn or slide on curved ones the forces lag
+/// behind by half a step.
+#define STICKSLIP_NORMALS_COMMITTED 1
 
 /// Normals of the current configuration, linearised: the size of a step does not decide how accurate normals are, a surface may
 /// turn by any angle within it, and a step without load moves nothing. Tied surfaces
 /// use no normals. Which facets look at each other follows the motion, too.
 /// Not with (UNSUPPORTED): frozen weights; points that decide (STICKSLIP_DECISION_POINTS); normals of the host.
-#define STICKSLIP_NORMALS_CURRENT 1
+#define STICKSLIP_NORMALS_CURRENT 2
 
 /// Coulomb friction with the coefficient mu (0 allowed). Default.
 #define STICKSLIP_FRICTION_COULOMB 0
@@ -307,9 +314,12 @@
 /// all while the surfaces are apart: no law, row -lambda / r; the former's tangent block is its diagonal.
 #define STICKSLIP_SHORTCUT_UNCOVERED 8
 
-/// Standard shape functions for the multiplier (the paper's). Default.
+/// Dual, but with STICKSLIP_SPACE_SUB standard. Default.
+#define STICKSLIP_BASIS_AUTO 0
+
+/// Standard shape functions for the multiplier (the paper's): tractions oscillate beside edges and on curved surfaces.
 /// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); condensation.
-#define STICKSLIP_BASIS_STANDARD 0
+#define STICKSLIP_BASIS_STANDARD 1
 
 /// Dual functions, biorthogonal to the shape functions over what is covered of a facet: a node's force is its multiplier
 /// times its covered area, and tractions do not oscillate beside edges and on curved surfaces. The tangent couples the
@@ -319,7 +329,7 @@
 /// have calls of their own for it.
 /// Not with (UNSUPPORTED): multipliers at all nodes of quadratic facets or lines (STICKSLIP_SPACE_SUB); sums of several
 /// handles.
-#define STICKSLIP_BASIS_DUAL 1
+#define STICKSLIP_BASIS_DUAL 2
 
 /// weak_coverage: every covered node has a multiplier of its own.
 #define STICKSLIP_WEAK_COVERAGE_NONE -1.0
@@ -1346,13 +1356,30 @@ int32_t stickslip_last_error_padded(char *text, int64_t length);
 /// Owner: the library, for good. Zero-terminated, never NULL.
 const char *stickslip_status_string(int32_t status);
 
-/// Writes the defaults into options. struct_size: sizeof(stickslip_options) as the caller knows it; of an older
-/// caller's shorter struct only that much is written, the tail of a newer caller's longer one is zeroed.
+/// Writes the defaults into options: what docs/accuracy.md recommends, as the host's other choices allow. struct_size:
+/// sizeof(stickslip_options) as the caller knows it; of an older caller's shorter struct only that much is written, the tail of
+/// a newer caller's longer one is zeroed.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE.
 /// Cost: a copy.
 int32_t stickslip_options_init(struct stickslip_options *options,
                                uint64_t struct_size);
+
+/// Makes options those of the paper's element: standard multipliers, weights of now, normals of the last commit. Other members stay.
+///
+/// options: in and out, after `stickslip_options_init`.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE.
+/// Cost: a copy.
+int32_t stickslip_options_paper(struct stickslip_options *options);
+
+/// Replaces what is AUTO in options by what an interface with these options takes: `stickslip_interface_effects` says it of a handle.
+///
+/// options: in and out, complete but for the stiffness.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_VALUE.
+/// Cost: a copy.
+int32_t stickslip_options_settle(struct stickslip_options *options);
 
 /// Splits the nodes on creases of a non-mortar surface: gives each fan of facets that look nearly the same way nodes of
 /// its own, until no two corner normals around a node differ by more than angle. A node of a sharp edge or corner then

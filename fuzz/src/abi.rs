@@ -404,12 +404,12 @@ fn options(bytes: &mut Bytes, base: i64) -> Struct<stickslip_options> {
     o.modulus = bytes.number(1000.0);
     o.friction = bytes.choice(4);
     o.form = bytes.choice(2);
-    o.weights = bytes.choice(4);
+    o.weights = bytes.choice(5);
     for _ in 0..bytes.below(4) {
         match bytes.below(13) {
             0 => o.slip = bytes.choice(3),
             1 => o.mortar_side = bytes.choice(3),
-            2 => o.multiplier_basis = bytes.choice(2),
+            2 => o.multiplier_basis = bytes.choice(3),
             3 => o.quadrature = bytes.choice(6),
             4 => o.row_scale = bytes.choice(2),
             5 => o.new_contact = bytes.choice(2),
@@ -418,7 +418,7 @@ fn options(bytes: &mut Bytes, base: i64) -> Struct<stickslip_options> {
             8 => o.augmentation = bytes.number(1.0),
             9 => o.coverage_min = bytes.number(1e-4),
             10 => o.no_shortcuts = bytes.choice(16),
-            11 => (o.normals, o.threads) = (bytes.choice(2), bytes.choice(4)),
+            11 => (o.normals, o.threads) = (bytes.choice(3), bytes.choice(4)),
             _ => (o.shape, o.radius) = (bytes.choice(4), bytes.number(1.0)),
         }
     }

@@ -175,7 +175,7 @@ pub fn run(data: &[u8]) {
             options.decision = STICKSLIP_DECISION_POINTS;
             options.friction = STICKSLIP_FRICTION_NONE;
             options.multiplier_basis = STICKSLIP_BASIS_DUAL;
-            options.weights = 1 + bytes.choice(2);
+            options.weights = 2 + bytes.choice(2);
             (options.mu, options.shear_limit, options.normals) = (0.0, 0.0, 0);
         }
         1 => {

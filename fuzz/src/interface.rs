@@ -48,7 +48,7 @@ impl Scene {
         assert!(succeeded(unsafe { stickslip_options_init(&mut options, size_of::<stickslip_options>() as u64) }));
         options.form = bytes.choice(2);
         options.slip = bytes.choice(3);
-        options.weights = bytes.choice(4);
+        options.weights = bytes.choice(5);
         options.friction = bytes.choice(5);
         options.mortar_side = bytes.choice(2);
         options.quadrature = bytes.choice(6);
@@ -60,8 +60,8 @@ impl Scene {
         options.shear_limit = if limited { bytes.number(0.5) } else { 0.0 };
         options.modulus = bytes.number(1000.0);
         options.augmentation = if options.modulus == 0.0 { bytes.number(15.0) } else { 0.0 };
-        options.multiplier_basis = bytes.choice(2);
-        options.normals = if options.weights == STICKSLIP_WEIGHTS_CURRENT { bytes.choice(2) } else { 0 };
+        options.multiplier_basis = bytes.choice(3);
+        options.normals = if options.weights <= STICKSLIP_WEIGHTS_CURRENT { bytes.choice(3) } else { bytes.choice(2) };
         options.coverage_min = bytes.number(1e-8);
         options.search_distance = bytes.number(0.0);
         options.multiplier_space = bytes.choice(2);
@@ -356,7 +356,7 @@ impl Scene {
             }
             11 => {
                 // A phase of the step, whose residual is finite too.
-                succeeded(unsafe { stickslip_interface_use_normals(h, bytes.choice(2)) });
+                succeeded(unsafe { stickslip_interface_use_normals(h, bytes.choice(3)) });
                 self.residual();
             }
             12 => {

@@ -30,7 +30,10 @@ use crate::shape::MAX_CORNERS;
 pub unsafe extern "C" fn stickslip_interface_use_normals(interface: *mut stickslip_interface, normals: i32) -> i32 {
     guard(|| {
         let h = handle(interface)?;
-        let normals = choose_normals(normals, "normals")?;
+        let Some(normals) = choose_normals(normals, "normals")? else {
+            let text = "normals is STICKSLIP_NORMALS_AUTO; STICKSLIP_NORMALS_COMMITTED and _CURRENT are allowed";
+            return Err(Error::new(Kind::InvalidValue, text));
+        };
         either!(&mut h.inner, c => c.use_normals(normals))
     })
 }

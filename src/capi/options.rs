@@ -3,13 +3,14 @@
 use super::choice::{choose, unnamed};
 use super::guard::guard;
 use super::model::{STICKSLIP_MODEL_SOLID, measure, model as read_model};
+use super::raw;
 use super::sized::{self, Sized64};
 use super::space::{STICKSLIP_SPACE_CORNER, multiplier_space as read_multiplier_space};
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::AnalyticShape;
 use crate::interface::{
     COVERAGE_MIN, Decision, Form, MortarSide, MultiplierBasis, NewContact, Normals, Options, RowScale, Scheme,
-    Shortcuts, Stiffness, TURN_MAX, Tangent, Weights,
+    Shortcuts, Stiffness, TURN_MAX, Tangent, Weights, Wishes,
 };
 use crate::law::{Coefficient, Friction, LAWS, SlipMeasure};
 use crate::line::Measure;
@@ -29,24 +30,29 @@ pub const STICKSLIP_SLIP_INCREMENT: i32 = 1;
 /// Not with (UNSUPPORTED): persistent weights (STICKSLIP_WEIGHTS_PERSISTENT); points that decide (STICKSLIP_DECISION_POINTS)
 /// and friction (STICKSLIP_FRICTION_COULOMB).
 pub const STICKSLIP_SLIP_PAPER: i32 = 2;
-/// Weights of the current configuration, linearised: large sliding. Default.
-pub const STICKSLIP_WEIGHTS_CURRENT: i32 = 0;
+/// Of now; with STICKSLIP_DECISION_POINTS and friction those of the last commit. Default.
+pub const STICKSLIP_WEIGHTS_AUTO: i32 = 0;
+/// Weights of the current configuration, linearised: large sliding.
+pub const STICKSLIP_WEIGHTS_CURRENT: i32 = 1;
 /// Weights frozen at the last commit.
-pub const STICKSLIP_WEIGHTS_COMMITTED: i32 = 1;
+pub const STICKSLIP_WEIGHTS_COMMITTED: i32 = 2;
 /// Weights, normals and areas frozen at the first configuration: small displacements.
-pub const STICKSLIP_WEIGHTS_REFERENCE: i32 = 2;
+pub const STICKSLIP_WEIGHTS_REFERENCE: i32 = 3;
 /// Weights frozen at the last commit, and what overlaps there counts as closed: a step need not part it. The work of the contact forces over a
 /// step is then never positive, whatever slides and turns: for dynamics.
 /// Not with (UNSUPPORTED): the paper's slip measure (STICKSLIP_SLIP_PAPER); points that decide (STICKSLIP_DECISION_POINTS);
 /// offsets.
-pub const STICKSLIP_WEIGHTS_PERSISTENT: i32 = 3;
-/// Normals nu of the last commit, as in the paper: data of a step. Default.
-pub const STICKSLIP_NORMALS_COMMITTED: i32 = 0;
+pub const STICKSLIP_WEIGHTS_PERSISTENT: i32 = 4;
+/// Of now, unless weights are frozen, points decide or the host gives normals: then of the last commit. Default.
+pub const STICKSLIP_NORMALS_AUTO: i32 = 0;
+/// Normals nu of the last commit, as in the paper: data of a step. Where surfaces turn or slide on curved ones the forces lag
+/// behind by half a step.
+pub const STICKSLIP_NORMALS_COMMITTED: i32 = 1;
 /// Normals of the current configuration, linearised: the size of a step does not decide how accurate normals are, a surface may
 /// turn by any angle within it, and a step without load moves nothing. Tied surfaces
 /// use no normals. Which facets look at each other follows the motion, too.
 /// Not with (UNSUPPORTED): frozen weights; points that decide (STICKSLIP_DECISION_POINTS); normals of the host.
-pub const STICKSLIP_NORMALS_CURRENT: i32 = 1;
+pub const STICKSLIP_NORMALS_CURRENT: i32 = 2;
 /// Coulomb friction with the coefficient mu (0 allowed). Default.
 pub const STICKSLIP_FRICTION_COULOMB: i32 = 0;
 /// One multiplier per node, along the normal: multiplier_equations, lambda and rows have n1 entries. No slip history.
@@ -87,9 +93,11 @@ pub const STICKSLIP_SHORTCUT_APART: i32 = 4;
 /// Nodes that nothing can cover before the next commit (no mortar facet passes the filters with a facet around them), and
 /// all while the surfaces are apart: no law, row -lambda / r; the former's tangent block is its diagonal.
 pub const STICKSLIP_SHORTCUT_UNCOVERED: i32 = 8;
-/// Standard shape functions for the multiplier (the paper's). Default.
+/// Dual, but with STICKSLIP_SPACE_SUB standard. Default.
+pub const STICKSLIP_BASIS_AUTO: i32 = 0;
+/// Standard shape functions for the multiplier (the paper's): tractions oscillate beside edges and on curved surfaces.
 /// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); condensation.
-pub const STICKSLIP_BASIS_STANDARD: i32 = 0;
+pub const STICKSLIP_BASIS_STANDARD: i32 = 1;
 /// Dual functions, biorthogonal to the shape functions over what is covered of a facet: a node's force is its multiplier
 /// times its covered area, and tractions do not oscillate beside edges and on curved surfaces. The tangent couples the
 /// mortar nodes of all pairs of a facet. Neighbours carry weakly covered nodes unless weak_coverage says NONE. With
@@ -98,7 +106,7 @@ pub const STICKSLIP_BASIS_STANDARD: i32 = 0;
 /// have calls of their own for it.
 /// Not with (UNSUPPORTED): multipliers at all nodes of quadratic facets or lines (STICKSLIP_SPACE_SUB); sums of several
 /// handles.
-pub const STICKSLIP_BASIS_DUAL: i32 = 1;
+pub const STICKSLIP_BASIS_DUAL: i32 = 2;
 /// weak_coverage: every covered node has a multiplier of its own.
 pub const STICKSLIP_WEAK_COVERAGE_NONE: f64 = -1.0;
 /// 7 points a triangle, degree 5: exact for triangles and parallelograms. Default.
@@ -264,50 +272,115 @@ unsafe impl Sized64 for stickslip_options {
     const FIRST: usize = 88;
 }
 
-/// Writes the defaults into options. struct_size: sizeof(stickslip_options) as the caller knows it; of an older
-/// caller's shorter struct only that much is written, the tail of a newer caller's longer one is zeroed.
+const DEFAULTS: stickslip_options = stickslip_options {
+    struct_size: 0,
+    form: STICKSLIP_FORM_MULTIPLIER,
+    slip: STICKSLIP_SLIP_OBJECTIVE,
+    weights: STICKSLIP_WEIGHTS_AUTO,
+    friction: STICKSLIP_FRICTION_COULOMB,
+    mortar_side: STICKSLIP_MORTAR_DEFORMABLE,
+    multiplier_basis: STICKSLIP_BASIS_AUTO,
+    quadrature: STICKSLIP_QUADRATURE_DEGREE_5,
+    row_scale: STICKSLIP_ROW_SCALE_FORCE,
+    new_contact: STICKSLIP_NEW_CONTACT_FRICTIONLESS,
+    index_base: 0,
+    mu: 0.0,
+    augmentation: 0.0,
+    modulus: 0.0,
+    coverage_min: COVERAGE_MIN,
+    search_distance: 0.0,
+    no_shortcuts: 0,
+    shape: STICKSLIP_SHAPE_PLANE,
+    radius: 0.0,
+    integration: STICKSLIP_INTEGRATION_SEGMENTS,
+    tangent: STICKSLIP_TANGENT_EXACT,
+    element_points: 0,
+    weak_coverage: 0.0,
+    turn_max: 0.0,
+    shear_limit: 0.0,
+    normals: STICKSLIP_NORMALS_AUTO,
+    threads: 0,
+    multiplier_space: STICKSLIP_SPACE_CORNER,
+    model: STICKSLIP_MODEL_SOLID,
+    thickness: 0.0,
+    decision: STICKSLIP_DECISION_NODES,
+    reserved: 0,
+};
+
+/// Writes the defaults into options: what docs/accuracy.md recommends, as the host's other choices allow. struct_size:
+/// sizeof(stickslip_options) as the caller knows it; of an older caller's shorter struct only that much is written, the tail of
+/// a newer caller's longer one is zeroed.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE.
 /// Cost: a copy.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_options_init(options: *mut stickslip_options, struct_size: u64) -> i32 {
+    guard(|| sized::initialise(options, struct_size, stickslip_options { struct_size, ..DEFAULTS }, "options"))
+}
+
+/// Makes options those of the paper's element: standard multipliers, weights of now, normals of the last commit. Other members stay.
+///
+/// options: in and out, after `stickslip_options_init`.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE.
+/// Cost: a copy.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_options_paper(options: *mut stickslip_options) -> i32 {
     guard(|| {
-        let defaults = stickslip_options {
-            struct_size,
-            form: STICKSLIP_FORM_MULTIPLIER,
-            slip: STICKSLIP_SLIP_OBJECTIVE,
+        raw::check(options, "options")?;
+        let given = sized::read(options)?;
+        let paper = stickslip_options {
             weights: STICKSLIP_WEIGHTS_CURRENT,
-            friction: STICKSLIP_FRICTION_COULOMB,
-            mortar_side: STICKSLIP_MORTAR_DEFORMABLE,
             multiplier_basis: STICKSLIP_BASIS_STANDARD,
-            quadrature: STICKSLIP_QUADRATURE_DEGREE_5,
-            row_scale: STICKSLIP_ROW_SCALE_FORCE,
-            new_contact: STICKSLIP_NEW_CONTACT_FRICTIONLESS,
-            index_base: 0,
-            mu: 0.0,
-            augmentation: 0.0,
-            modulus: 0.0,
-            coverage_min: COVERAGE_MIN,
-            search_distance: 0.0,
-            no_shortcuts: 0,
-            shape: STICKSLIP_SHAPE_PLANE,
-            radius: 0.0,
-            integration: STICKSLIP_INTEGRATION_SEGMENTS,
-            tangent: STICKSLIP_TANGENT_EXACT,
-            element_points: 0,
-            weak_coverage: 0.0,
-            turn_max: 0.0,
-            shear_limit: 0.0,
             normals: STICKSLIP_NORMALS_COMMITTED,
-            threads: 0,
-            multiplier_space: STICKSLIP_SPACE_CORNER,
-            model: STICKSLIP_MODEL_SOLID,
-            thickness: 0.0,
-            decision: STICKSLIP_DECISION_NODES,
-            reserved: 0,
+            ..given
         };
-        sized::initialise(options, struct_size, defaults, "options")
+        sized::initialise(options, given.struct_size, paper, "options")
     })
+}
+
+/// Replaces what is AUTO in options by what an interface with these options takes: `stickslip_interface_effects` says it of a handle.
+///
+/// options: in and out, complete but for the stiffness.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_VALUE.
+/// Cost: a copy.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_options_settle(options: *mut stickslip_options) -> i32 {
+    guard(|| {
+        raw::check(options, "options")?;
+        let given = sized::read(options)?;
+        let chosen = Options {
+            decision: read_decision(given.decision, 1.0)?,
+            friction: law(given.friction, "options.friction")?,
+            space: read_multiplier_space(given.multiplier_space, "options.multiplier_space")?,
+            ..Options::paper(Stiffness::Modulus(1.0))
+        };
+        let settled = chosen.settle(read_wishes(&given)?);
+        let settled = stickslip_options {
+            weights: 1 + settled.weights as i32,
+            multiplier_basis: 1 + settled.basis as i32,
+            normals: 1 + settled.normals as i32,
+            ..given
+        };
+        sized::initialise(options, given.struct_size, settled, "options")
+    })
+}
+
+/// What is not AUTO.
+fn read_wishes(given: &stickslip_options) -> Result<Wishes> {
+    let bases = [None, Some(MultiplierBasis::Standard), Some(MultiplierBasis::Dual)];
+    let [current, committed, reference, persistent] =
+        [Weights::Current, Weights::Committed, Weights::Reference, Weights::Persistent].map(Some);
+    Ok(Wishes {
+        basis: choose(given.multiplier_basis, "options.multiplier_basis", &bases, 3)?,
+        weights: choose(given.weights, "options.weights", &[None, current, committed, reference, persistent], 5)?,
+        normals: choose_normals(given.normals, "options.normals")?,
+    })
+}
+
+fn read_decision(value: i32, modulus: f64) -> Result<Decision> {
+    choose(value, "options.decision", &[Decision::Nodes, Decision::Points(modulus)], 2)
 }
 
 fn read_shortcuts(off: i32) -> Result<Shortcuts> {
@@ -365,9 +438,9 @@ pub(super) fn slip_measure(value: i32, name: &str) -> Result<SlipMeasure> {
 /// More than any one interface gains from.
 const MAX_THREADS: i32 = 256;
 
-/// The normals of a STICKSLIP_NORMALS_... value.
-pub(super) fn choose_normals(value: i32, name: &str) -> Result<Normals> {
-    choose(value, name, &[Normals::Committed, Normals::Current], 2)
+/// The normals of a STICKSLIP_NORMALS_... value; `None`: the library's choice.
+pub(super) fn choose_normals(value: i32, name: &str) -> Result<Option<Normals>> {
+    choose(value, name, &[None, Some(Normals::Committed), Some(Normals::Current)], 3)
 }
 
 /// The law of a STICKSLIP_FRICTION_... value.
@@ -435,15 +508,16 @@ fn read_shape(analytic: bool, lines: bool, shape: i32, radius: f64) -> Result<Op
 
 /// The options, checked.
 pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
+    let given = sized::read(p)?;
     // Every member by name: a new one does not compile until it is handled.
     let stickslip_options {
         struct_size: _,
         form,
         slip,
-        weights,
+        weights: _,
         friction,
         mortar_side,
-        multiplier_basis,
+        multiplier_basis: _,
         quadrature,
         row_scale,
         new_contact,
@@ -462,25 +536,23 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         weak_coverage,
         turn_max,
         shear_limit,
-        normals,
+        normals: _,
         threads,
         multiplier_space,
         model,
         thickness,
         decision,
         reserved,
-    } = sized::read(p)?;
+    } = given;
     if reserved != 0 {
         let text = text!("options.reserved is {reserved}; it must be 0");
         return Err(Error::new(Kind::InvalidValue, text));
     }
-    let decision = choose(decision, "options.decision", &[Decision::Nodes, Decision::Points(modulus)], 2)?;
+    let decision = read_decision(decision, modulus)?;
     let friction = law(friction, "options.friction")?;
     let sides = [MortarSide::Deformable, MortarSide::Rigid, MortarSide::Rigid];
     let analytic = mortar_side == STICKSLIP_MORTAR_ANALYTIC;
     let mortar_side = choose(mortar_side, "options.mortar_side", &sides, 3)?;
-    let bases = [MultiplierBasis::Standard, MultiplierBasis::Dual];
-    let basis = choose(multiplier_basis, "options.multiplier_basis", &bases, 2)?;
     let numbers = [
         ("mu", mu),
         ("augmentation", augmentation),
@@ -519,18 +591,10 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
     }
     let measure = measure(read_model(model, "options.model")?, thickness, "options.thickness")?;
     let options = Options {
-        basis,
         decision,
         space: read_multiplier_space(multiplier_space, "options.multiplier_space")?,
         form: choose(form, "options.form", &[Form::Multiplier, Form::Augmented], 2)?,
         slip: slip_measure(slip, "options.slip")?,
-        weights: choose(
-            weights,
-            "options.weights",
-            &[Weights::Current, Weights::Committed, Weights::Reference, Weights::Persistent],
-            4,
-        )?,
-        normals: choose_normals(normals, "options.normals")?,
         threads: (threads as usize).max(1),
         rule: rule(quadrature, "options.quadrature")?,
         scheme: read_scheme(integration, element_points)?,
@@ -552,12 +616,13 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         shortcuts: read_shortcuts(no_shortcuts)?,
         mu,
         shear_limit: given_limit(shear_limit),
-        stiffness,
         coverage_min,
         weak_coverage,
         search_distance: (search_distance != 0.0).then_some(search_distance),
         turn_max: if turn_max == 0.0 { TURN_MAX } else { turn_max },
+        ..Options::paper(stiffness)
     };
+    let options = options.settle(read_wishes(&given)?);
     options.validate()?;
     let base = choose(index_base, "options.index_base", &[0, 1], 2)?;
     Ok(Choices { options, base, shape: read_shape(analytic, measure.is_some(), shape, radius)?, measure })

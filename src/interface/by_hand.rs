@@ -4,7 +4,7 @@ use super::data::active::Active;
 use super::data::effects::Effects;
 use super::data::extent::{Extent, Scope};
 use super::data::history::History;
-use super::data::options::{Options, Stiffness};
+use super::data::options::{Normals, Options, Stiffness};
 use super::data::pairs::PairRecord;
 use super::data::setup::Setup;
 use super::data::surface::{NO_EQUATION, Surface};
@@ -38,7 +38,7 @@ fn setup() -> Setup<3> {
     let equations = |first: i64| (0..4).map(|a| [0, 1, 2].map(|i| first + 3 * a + i)).collect::<Vec<_>>();
     let one = Surface::new("nonmortar", x1, &[vec![0, 1, 2, 3]], equations(0)).unwrap();
     let two = Surface::new("mortar", x2, &[vec![0, 1, 2, 3]], vec![[NO_EQUATION; 3]; 4]).unwrap();
-    let options = Options { mu: 0.3, ..Options::new(Stiffness::Modulus(1000.0)) };
+    let options = Options { mu: 0.3, ..Options::paper(Stiffness::Modulus(1000.0)) };
     let mu = vec![0.3; 4];
     let effects = Effects::of_three(&options, &two, &mu, None);
     Setup::new((one, two), equations(12), options, mu, effects).unwrap()
@@ -50,7 +50,7 @@ fn step(setup: &Setup<3>) -> Step {
     let (known, history) = (commit::Known { active, filter: None }, History::empty());
     let start = commit::settled_at(setup.surfaces(), &setup.options, Extent::Whole, work, at, known, history).unwrap();
     let pairing = Pairing::new(setup, start.filter, &start.history).unwrap();
-    Step { history: start.history, pairing, normals: Default::default(), now: None, room: Default::default() }
+    Step { history: start.history, pairing, normals: Normals::Committed, now: None, room: Default::default() }
 }
 
 #[test]

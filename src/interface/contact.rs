@@ -156,10 +156,22 @@ impl<const N: usize> Contact<N> {
         Ok(())
     }
 
-    /// Unit normals into the non-mortar body; `None` returns to the averaged ones. Not where the normals follow the motion.
+    /// Unit normals into the non-mortar body; `None` returns to the library's. Not where the host asked for normals that follow
+    /// the motion.
     pub fn set_normals(&mut self, normals: Option<Vec<Vec3>>) -> Result<()> {
-        self.setup.refuse(&[(Feature::HostNormals, normals.is_some())])?;
-        self.setup.nodes.set_normals(normals)?;
+        let given = normals.is_some();
+        let options = self.setup.options.beside_normals(given);
+        let before = std::mem::replace(&mut self.setup.options, options);
+        let refused = if given { self.setup.refuse(&[(Feature::HostNormals, true)]) } else { Ok(()) };
+        if let Err(error) = refused.and_then(|()| self.setup.nodes.set_normals(normals)) {
+            self.setup.options = before;
+            return Err(error);
+        }
+        if options.normals != before.normals {
+            self.step.normals = options.normals;
+            self.step.forget_normals();
+            self.linear.forget();
+        }
         self.cache.forget();
         Ok(())
     }

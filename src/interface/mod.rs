@@ -46,7 +46,7 @@ pub use data::history::History;
 pub use data::node_data::Owner;
 pub use data::options::{
     COVERAGE_MIN, Decision, Form, Friction, MODULUS_FACTOR, MortarSide, MultiplierBasis, NO_WEAK_COVERAGE, NewContact,
-    Normals, Options, RowScale, Scheme, Shortcuts, Stiffness, TURN_MAX, Tangent, Weights,
+    Normals, Options, RowScale, Scheme, Shortcuts, Stiffness, TURN_MAX, Tangent, Weights, Wishes,
 };
 pub use data::pairs::{PairRecord, ParentRecord};
 pub use data::parents::Parents;

@@ -74,6 +74,7 @@ impl<'a> Case<'a> {
         }
         let mut options = sized!(stickslip_options);
         ok!(stickslip_options_init(&mut options, size_of::<stickslip_options>() as u64));
+        ok!(stickslip_options_paper(&mut options));
         options.augmentation = 1.0;
         options.weak_coverage = STICKSLIP_WEAK_COVERAGE_NONE;
         options.slip = slip_option(of);

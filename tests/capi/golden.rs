@@ -327,6 +327,7 @@ impl Golden {
         two.equations = equations[x1.len()..].as_ptr();
         let mut options = sized!(stickslip_options);
         ok!(stickslip_options_init(&mut options, size_of::<stickslip_options>() as u64));
+        ok!(stickslip_options_paper(&mut options));
         options.augmentation = 1.0;
         options.weak_coverage = STICKSLIP_WEAK_COVERAGE_NONE;
         options.slip = slip_option(case);

@@ -99,6 +99,7 @@ static inline void scene_init_base(scene *s, int64_t base) {
   s->mortar.facet_nodes = s->nodes2;
   s->mortar.equations = s->equations2;
   CHECK_OK(stickslip_options_init(&s->options, sizeof s->options));
+  CHECK_OK(stickslip_options_paper(&s->options));
   s->options.index_base = (int32_t)base;
   s->options.mu = 0.7;
   s->options.augmentation = 15.0;

@@ -39,6 +39,7 @@ static void create(scene *s, double slide, double friction) {
   two.facet_nodes = mortar_nodes;
   two.equations = equations + ONE;
   CHECK_OK(stickslip_options_init(&options, sizeof options));
+  CHECK_OK(stickslip_options_paper(&options));
   options.mu = friction;
   options.augmentation = 20.0;
   CHECK_OK(stickslip_interface_create(&one, &two, &options, &s->interface));

@@ -11,6 +11,7 @@ int main(void) {
   const stickslip_surface two = {sizeof two, 4, 1, table, offsets, nodes, equations + 12, NULL, NULL};
   stickslip_options options;
   CHECK_OK(stickslip_options_init(&options, sizeof options));
+  CHECK_OK(stickslip_options_paper(&options));
   options.augmentation = 10.0;
   options.mu = 0.1;
 

@@ -88,6 +88,7 @@ static void distances(void) {
     double coverage[4], lambda[12] = {0.0};
     stickslip_states out;
     CHECK_OK(stickslip_options_init(&options, sizeof options));
+    CHECK_OK(stickslip_options_paper(&options));
     options.augmentation = 1.0;
     options.search_distance = far[k];
     CHECK_OK(stickslip_interface_create(&one, &two, &options, &interface));

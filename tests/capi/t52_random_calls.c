@@ -376,15 +376,15 @@ static void sequence(int compared) {
   scene *s = &h.s;
   scene_init(s);
   s->options.form = (int32_t)draw(2);
-  s->options.weights = (int32_t)draw(4);
+  s->options.weights = (int32_t)draw(5);
   s->options.slip = (int32_t)draw(3);
   s->options.new_contact = (int32_t)draw(2);
   s->options.quadrature = (int32_t)draw(2);
   s->options.friction = (int32_t)draw(STICKSLIP_FRICTION_TRESCA + 1);
   s->options.no_shortcuts = (int32_t)draw(16);
   s->options.weak_coverage = 0.5 * (double)draw(3);
-  s->options.multiplier_basis = (int32_t)draw(2);
-  s->options.normals = s->options.weights == STICKSLIP_WEIGHTS_CURRENT ? (int32_t)draw(2) : STICKSLIP_NORMALS_COMMITTED;
+  s->options.multiplier_basis = (int32_t)draw(3);
+  s->options.normals = s->options.weights <= STICKSLIP_WEIGHTS_CURRENT ? (int32_t)draw(3) : (int32_t)draw(2);
   if (!has_mu(s->options.friction)) s->options.mu = 0.0;
   if (s->options.friction == STICKSLIP_FRICTION_TRESCA) s->options.shear_limit = 0.5;
   if (draw(2)) spoil(&s->options.mu, 5);

@@ -124,6 +124,7 @@ static void contact(void) {
   two.equations = none;
   stickslip_options options;
   CHECK_OK(stickslip_options_init(&options, sizeof options));
+  CHECK_OK(stickslip_options_paper(&options));
   options.modulus = 100.0;
   options.mu = 0.3;
   stickslip_interface *interface = NULL;

@@ -82,6 +82,7 @@ static void check_handle(double ab[2][16], double ac[2][16]) {
   two.n_nodes = TWO, two.n_facets = 1, two.coordinates = x2, two.facet_offsets = offsets, two.facet_nodes = nodes2;
   two.equations = equations2;
   CHECK_OK(stickslip_options_init(&options, sizeof options));
+  CHECK_OK(stickslip_options_paper(&options));
   options.modulus = 1.0;
   options.mu = 0.3;
   options.no_shortcuts = STICKSLIP_SHORTCUT_APART;

@@ -22,6 +22,7 @@ static int32_t create(int32_t space, int32_t basis, int64_t with_multipliers, st
       .facet_offsets = offsets2, .facet_nodes = nodes2, .equations = equations + X1};
   stickslip_options options;
   CHECK_OK(stickslip_options_init(&options, sizeof options));
+  CHECK_OK(stickslip_options_paper(&options));
   options.modulus = 1000.0, options.mu = 0.3, options.multiplier_space = space, options.multiplier_basis = basis;
   return stickslip_interface_create(&one, &two, &options, interface);
 }

@@ -22,6 +22,7 @@ static int32_t create(int32_t model, double thickness, int32_t basis, const doub
       .facet_offsets = offsets2, .facet_nodes = nodes2, .equations = equations + X1};
   stickslip_options options;
   CHECK_OK(stickslip_options_init(&options, sizeof options));
+  CHECK_OK(stickslip_options_paper(&options));
   CHECK(options.model == STICKSLIP_MODEL_SOLID && options.thickness == 0.0);
   options.modulus = 1000.0, options.mu = 0.3, options.model = model, options.thickness = thickness;
   options.multiplier_basis = basis;

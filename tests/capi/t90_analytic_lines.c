@@ -25,6 +25,7 @@ static int32_t create(int32_t model, int32_t basis, int32_t shape, double radius
       .facet_offsets = offsets, .facet_nodes = nodes, .equations = equations, .multiplier_equations = equations + X1};
   stickslip_options options;
   CHECK_OK(stickslip_options_init(&options, sizeof options));
+  CHECK_OK(stickslip_options_paper(&options));
   options.modulus = 1000.0, options.mu = 0.3, options.model = model, options.multiplier_basis = basis;
   options.quadrature = STICKSLIP_QUADRATURE_DEGREE_10;
   options.mortar_side = STICKSLIP_MORTAR_ANALYTIC, options.shape = shape, options.radius = radius;

@@ -123,6 +123,7 @@ contains
     s%mortar = stickslip_surface(n_nodes=NC, n_facets=9, coordinates=c_loc(s%reference2), &
         facet_offsets=c_loc(s%offsets2), facet_nodes=c_loc(s%nodes2), equations=c_loc(s%equations2))
     CHECK_OK(stickslip_options_init(s%options, stickslip_options_size))
+    CHECK_OK(stickslip_options_paper(s%options))
     s%options%index_base = int(first, c_int32_t)
     s%options%mu = 0.7d0
     s%options%augmentation = 15

@@ -49,6 +49,7 @@ contains
     mortar = stickslip_surface(n_nodes=6, n_facets=2, coordinates=c_loc(ground), facet_offsets=c_loc(offsets), &
         facet_nodes=c_loc(mortar_nodes), equations=c_loc(equations(ONE + 1)))
     CHECK_OK(stickslip_options_init(options, stickslip_options_size))
+    CHECK_OK(stickslip_options_paper(options))
     options%index_base = 1
     options%mu = friction
     options%augmentation = 20

@@ -30,6 +30,7 @@ program t37_drop_off
   mortar = stickslip_surface(n_nodes=4, n_facets=1, coordinates=c_loc(table), facet_offsets=c_loc(offsets), &
       facet_nodes=c_loc(nodes), equations=c_loc(equations(13)))
   CHECK_OK(stickslip_options_init(options, stickslip_options_size))
+  CHECK_OK(stickslip_options_paper(options))
   options%index_base = 1
   options%augmentation = 10
   options%mu = 0.1d0

@@ -111,6 +111,7 @@ contains
     out%coverage = c_loc(coverage)
     do k = 1, size(FAR)
       CHECK_OK(stickslip_options_init(options, stickslip_options_size))
+      CHECK_OK(stickslip_options_paper(options))
       options%index_base = 1
       options%augmentation = 1
       options%search_distance = FAR(k)

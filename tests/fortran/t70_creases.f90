@@ -143,6 +143,7 @@ contains
     two = surface_of(channel, CHANNEL_NODES, channel_facets)
     two%equations = c_loc(none)
     CHECK_OK(stickslip_options_init(options, stickslip_options_size))
+    CHECK_OK(stickslip_options_paper(options))
     options%index_base = 1
     options%modulus = 100
     options%mu = 0.3d0

@@ -40,6 +40,7 @@ contains
     two = stickslip_surface(n_nodes=4, n_facets=1, coordinates=c_loc(place2), facet_offsets=c_loc(offsets2), &
         facet_nodes=c_loc(nodes2), equations=c_loc(equations(X1 + 1)))
     CHECK_OK(stickslip_options_init(options, stickslip_options_size))
+    CHECK_OK(stickslip_options_paper(options))
     options%index_base = 1
     options%modulus = 1000
     options%mu = 0.3d0

@@ -41,6 +41,7 @@ contains
         facet_nodes=c_loc(nodes), equations=c_loc(equations), multiplier_equations=c_loc(equations(X1 + 1)))
     two = stickslip_surface(n_nodes=points, n_facets=0, coordinates=c_loc(frame))
     CHECK_OK(stickslip_options_init(options, stickslip_options_size))
+    CHECK_OK(stickslip_options_paper(options))
     options%index_base = 1
     options%modulus = 1000
     options%mu = 0.3d0

@@ -70,7 +70,7 @@ fn mortar_boundary_on_nonmortar_mesh_lines_is_differentiated() {
 fn back_faces_are_no_contact() {
     let block = closed_box([0.0; 3], [1.0; 3]);
     let plate = closed_box([-1.0, -1.0, -0.2], [2.0, 2.0, 0.0]);
-    let mut i = interface(&block, &plate, Options::new(Stiffness::Modulus(1000.0)));
+    let mut i = interface(&block, &plate, Options::paper(Stiffness::Modulus(1000.0)));
     let lambda = i.initial_multipliers().unwrap();
     let responses = i.responses(&block.x, &plate.x, &lambda, None).unwrap();
     for (a, x) in block.x.iter().enumerate() {

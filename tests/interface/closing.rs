@@ -26,7 +26,7 @@ fn a_body_that_falls_touches_in_a_few_calls_and_stays_above() {
         let lowest = one.x.iter().map(|x| x.z).fold(f64::INFINITY, f64::min);
         let gap = [0.05, 0.5, 2.0, 10.0][(seed % 4) as usize];
         one.x.iter_mut().for_each(|x| x.z += gap + 0.2 - lowest);
-        let mut contact: Contact<1> = contact(&one, &two, true, Options::new(Stiffness::Modulus(1.0)));
+        let mut contact: Contact<1> = contact(&one, &two, true, Options::paper(Stiffness::Modulus(1.0)));
         let rest = vec![Vec3::zeros(); two.x.len()];
         let (mut x, mut calls, mut left) = (one.x.clone(), 0, gap + 0.7);
         let deepest = loop {

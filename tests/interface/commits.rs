@@ -45,7 +45,7 @@ fn convex_bodies_pressed_keep_states_and_gaps_at_a_commit() {
         let touching = farthest(&two, &direction) - farthest(&one, &-direction);
         // As deep as the coarser body's facets bulge.
         let depth = (1.0 + random.next()) * 0.5 / (n1.min(n2) as f64).powi(2);
-        let mut contact: Contact<1> = contact(&one, &two, true, Options::new(Stiffness::Modulus(1.0)));
+        let mut contact: Contact<1> = contact(&one, &two, true, Options::paper(Stiffness::Modulus(1.0)));
         let at = |gap: f64| -> Vec<Vec3> { one.x.iter().map(|x| x + touching + direction * gap).collect() };
         let turn = Rotation3::new(random.vector(TURN));
         let lambda = vec![Default::default(); one.x.len()];
@@ -104,7 +104,7 @@ fn pressed(cells: [usize; 2], cylinder: bool, steps: usize, distance: Option<f64
     let (x, equations) = (tool.x.clone(), vec![[NO_EQUATION; 3]; tool.x.len()]);
     let mortar = Surface::new("mortar", tool.x, &tool.facets, equations).unwrap();
     let options =
-        Options { friction: Friction::None, search_distance: distance, ..Options::new(Stiffness::Modulus(100.0)) };
+        Options { friction: Friction::None, search_distance: distance, ..Options::paper(Stiffness::Modulus(100.0)) };
     let mut press: Press<1> = Press::new(Body::new(layer, Vec3::z() * -1.0, 100.0, 0.3), mortar, options);
     let place = |s: f64| Place { plate: Isometry3::translation(0.0, 0.0, 0.2 * s), mortar: x.clone() };
     press.go((0.0, 1.0), steps, &place);

@@ -115,7 +115,7 @@ impl<const N: usize> At<'_, N> {
 }
 
 fn golden_dual(case: &Value) -> Golden {
-    let of = Options::new(Stiffness::Augmentation(1.0));
+    let of = Options::paper(Stiffness::Augmentation(1.0));
     set_up_with(case, Options { basis: MultiplierBasis::Dual, weak_coverage: NO_WEAK_COVERAGE, ..of })
 }
 

@@ -333,7 +333,7 @@ where
 fn a_punch_pushed_into_a_channel_corner_presses_on_both_faces() {
     /// Of the pressure; the condition of the system is 1e4.
     const PRESSURE: f64 = 1e-10;
-    let options = Options::new(Stiffness::Modulus(SPRINGS));
+    let options = Options::paper(Stiffness::Modulus(SPRINGS));
     let (punch, lambda, iterations) = pushed(Punch::<3>::new(options, false));
     assert!(iterations <= 6, "{iterations}");
     for (a, l) in lambda.iter().enumerate() {
@@ -373,7 +373,7 @@ impl Punch<3> {
 fn copies_of_a_node_do_not_both_stick() {
     for friction in [Friction::Coulomb, Friction::Rough] {
         let mu = if friction == Friction::Coulomb { 0.5 } else { 0.0 };
-        let mut p = Punch::<3>::new(Options { mu, friction, ..Options::new(Stiffness::Modulus(1.0)) }, false);
+        let mut p = Punch::<3>::new(Options { mu, friction, ..Options::paper(Stiffness::Modulus(1.0)) }, false);
         let rank = p.rank();
         // Measured 1.3e-5: rows without friction are areas, the springs 1.
         assert!(rank > 1e-6, "{friction:?}: {rank}");
@@ -397,7 +397,7 @@ fn a_copy_that_touches_alone_sticks() {
     let one = Surface::new("nonmortar", copied.x.clone(), &copied.facets, equations).unwrap();
     let two = Surface::new("mortar", floor.x.clone(), &floor.facets, vec![[NO_EQUATION; 3]; floor.x.len()]).unwrap();
     let multipliers = numbered(3 * mesh.x.len(), copied.x.len());
-    let options = Options { mu: 0.5, ..Options::new(Stiffness::Modulus(1.0)) };
+    let options = Options { mu: 0.5, ..Options::paper(Stiffness::Modulus(1.0)) };
     let mut contact = Contact::<3>::create(one, two, multipliers, options).unwrap();
     let lambda: Vec<_> = (0..copied.x.len()).map(|a| -contact.normal(a).unwrap()).collect();
     let found = contact.responses(&copied.x, &floor.x, &lambda, None).unwrap();
@@ -431,7 +431,7 @@ fn a_punch_with_friction_pushed_into_a_channel_corner() {
     /// Rounding of the cone, over the pressure.
     const CONE: f64 = 1e-10;
     for mu in [0.2, 2.0] {
-        let p = Punch::<3>::new(Options { mu, ..Options::new(Stiffness::Modulus(SPRINGS)) }, false);
+        let p = Punch::<3>::new(Options { mu, ..Options::paper(Stiffness::Modulus(SPRINGS)) }, false);
         let friction = p.friction(mu);
         let (p, lambda, iterations) = pushed(p);
         assert!(iterations <= 10, "{iterations}");

@@ -39,7 +39,7 @@ pub fn cases() -> Vec<Value> {
 fn golden_states_and_residuals() {
     for case in cases() {
         for (form, key) in [(Form::Multiplier, "residual_mult"), (Form::Augmented, "residual")] {
-            let options = dual(Options { form, ..Options::new(Stiffness::Augmentation(1.0)) });
+            let options = dual(Options { form, ..Options::paper(Stiffness::Augmentation(1.0)) });
             let mut g = set_up_with(&case, options);
             let responses = g.interface.responses(&g.x1, &g.x2, &g.lambda, None).unwrap();
             for (a, (response, state)) in responses.iter().zip(numbers(&case["state"])).enumerate() {
@@ -65,7 +65,8 @@ fn golden_tangents() {
                 continue;
             }
             let rule = if affine { &DEGREE_5 } else { &DEGREE_10 };
-            let mut g = set_up_with(&case, dual(Options { form, rule, ..Options::new(Stiffness::Augmentation(1.0)) }));
+            let mut g =
+                set_up_with(&case, dual(Options { form, rule, ..Options::paper(Stiffness::Augmentation(1.0)) }));
             let (n, tangent) = dense_tangent(&mut g);
             let error = tangent_error(g.x1.len(), n, &tangent, &expected_tangent(expected, n), VANISHING);
             println!("{:32} {key} {error:.1e}", name(&case));

@@ -72,7 +72,7 @@ fn nothing_is_amiss_at_a_solution_whatever_the_augmentation() {
                 let mu = if friction.law().mu == Coefficient::Given { 0.3 } else { 0.0 };
                 let shear_limit = friction.law().limits_shear.then_some(SHEAR_LIMIT * YOUNG);
                 let stiffness = Stiffness::Modulus(scale * YOUNG);
-                let options = Options { form, row_scale, friction, mu, shear_limit, ..Options::new(stiffness) };
+                let options = Options { form, row_scale, friction, mu, shear_limit, ..Options::paper(stiffness) };
                 let (ends, between) = match friction {
                     Friction::None => press::<1>(options, rigid),
                     _ => press::<3>(options, rigid),
@@ -233,7 +233,7 @@ fn at_the_end_of_a_plate() {
         let upper = grid(4, 3, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
         let lower = grid(4, 4, [-0.4, -0.3], [0.77, 1.4], 0.0, true, Cells::Quads);
         let upper = Body::new(upper, Vec3::z() * 0.4, YOUNG, 0.3);
-        let options = Options { weak_coverage, weights, mu: 0.2, ..Options::new(Stiffness::Modulus(YOUNG)) };
+        let options = Options { weak_coverage, weights, mu: 0.2, ..Options::paper(Stiffness::Modulus(YOUNG)) };
         let mut host = Host::<3>::new(upper, Err(lower), options);
         let (mut carried, mut new) = (0, 0);
         for push in [0.0, 0.01, -0.05, -0.1] {

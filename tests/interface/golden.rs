@@ -31,7 +31,7 @@ pub struct Golden {
 
 /// An interface with equations numbered x1, x2, lambda and every golden input set.
 pub fn set_up(case: &Value, form: Form, rule: &'static Rule) -> Golden {
-    set_up_with(case, Options { form, rule, ..Options::new(Stiffness::Augmentation(1.0)) })
+    set_up_with(case, Options { form, rule, ..Options::paper(Stiffness::Augmentation(1.0)) })
 }
 
 /// The same with more options than form and rule.

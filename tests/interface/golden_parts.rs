@@ -58,7 +58,7 @@ fn cut(case: &Value, options: Options, key: &str) {
 fn golden_dual_interfaces_add_up() {
     for case in dual::cases() {
         for (form, key) in [(Form::Multiplier, "residual_mult"), (Form::Augmented, "residual")] {
-            cut(&case, dual(Options { form, ..Options::new(Stiffness::Augmentation(1.0)) }), key);
+            cut(&case, dual(Options { form, ..Options::paper(Stiffness::Augmentation(1.0)) }), key);
         }
     }
 }
@@ -67,6 +67,6 @@ fn golden_dual_interfaces_add_up() {
 fn golden_interfaces_add_up() {
     for case in golden("golden_interfaces.json") {
         let form = Form::Augmented;
-        cut(&case, Options { form, rule: &DEGREE_5, ..Options::new(Stiffness::Augmentation(1.0)) }, "residual");
+        cut(&case, Options { form, rule: &DEGREE_5, ..Options::paper(Stiffness::Augmentation(1.0)) }, "residual");
     }
 }

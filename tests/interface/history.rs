@@ -341,7 +341,7 @@ fn initial_multipliers_hold_closed_nodes() {
     let one = turned(grid(2, 1, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads));
     for (z, closed) in [(0.0, true), (-0.1, false), (0.1, true)] {
         let two = turned(grid(3, 3, [-1.0, -1.0], [0.7, 2.0], z, true, Cells::Quads));
-        let mut i = interface(&one, &two, Options::new(Stiffness::Modulus(1000.0)));
+        let mut i = interface(&one, &two, Options::paper(Stiffness::Modulus(1000.0)));
         let lambda = i.initial_multipliers().unwrap();
         for (a, l) in lambda.iter().enumerate() {
             let nu = frame * Vec3::z();

@@ -11,7 +11,7 @@ const ROUNDING: f64 = 1e-10;
 const DEGREES: [f64; 5] = [0.0, 0.5, 3.0, 10.0, 30.0];
 
 fn options(friction: Friction, mu: f64, normals: Normals) -> Options {
-    Options { friction, mu, normals, ..Options::new(Stiffness::Modulus(100.0)) }
+    Options { friction, mu, normals, ..Options::paper(Stiffness::Modulus(100.0)) }
 }
 
 /// Both bodies, that touch, turned about y; the tractions as they were, `along` of them along the surface.

@@ -32,7 +32,7 @@ fn slip_of_rotation(slip: SlipMeasure, seed: u64) -> (f64, usize) {
     let [one, two] = curved(&mut random);
     let axis = Unit::new_normalize(random.vector(1.0));
     let centre = random.vector(2.0);
-    let mut i = interface(&one, &two, Options { slip, mu: 5.0, ..Options::new(Stiffness::Modulus(10.0)) });
+    let mut i = interface(&one, &two, Options { slip, mu: 5.0, ..Options::paper(Stiffness::Modulus(10.0)) });
     let normals: Vec<_> = (0..one.x.len()).map(|a| i.normal(a).unwrap()).collect();
     let mut loose = 0;
     for step in 1..=100 {
@@ -113,7 +113,7 @@ fn slide(places: &[f64], over_corner: bool, mu: f64, coverage_min: f64) -> Vec<S
     let direction = Vec3::new(1.0, if over_corner { 1.0 } else { 0.0 }, 0.0);
     let at = |s: f64| -> Vec<Vec3> { mesh.x.iter().map(|x| x + direction * s).collect() };
     let start = Mesh { x: at(places[0]), ..mesh.clone() };
-    let options = Options { mu, coverage_min, ..Options::new(Stiffness::Modulus(SPRINGS)) };
+    let options = Options { mu, coverage_min, ..Options::paper(Stiffness::Modulus(SPRINGS)) };
     let mut contact = contact::<3>(&start, &plate, true, options);
     // Numbered as `contact` does it; the plate has no equations.
     let first_multiplier = 3 * (n + plate.x.len()) as i64;

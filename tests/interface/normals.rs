@@ -45,7 +45,7 @@ fn cases() -> Vec<Value> {
 fn golden_options(case: &Value, form: Form) -> Options {
     let basis = if case["basis"] == "dual" { MultiplierBasis::Dual } else { MultiplierBasis::Standard };
     let options =
-        Options { form, basis, weak_coverage: NO_WEAK_COVERAGE, ..Options::new(Stiffness::Augmentation(1.0)) };
+        Options { form, basis, weak_coverage: NO_WEAK_COVERAGE, ..Options::paper(Stiffness::Augmentation(1.0)) };
     current(options)
 }
 

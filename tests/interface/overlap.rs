@@ -14,7 +14,7 @@ const ROUNDING: f64 = 1e-13;
 const YOUNG: f64 = 100.0;
 
 fn frictionless(basis: MultiplierBasis, weights: Weights) -> Options {
-    Options { friction: Friction::None, mu: 0.0, basis, weights, ..Options::new(Stiffness::Modulus(YOUNG)) }
+    Options { friction: Friction::None, mu: 0.0, basis, weights, ..Options::paper(Stiffness::Modulus(YOUNG)) }
 }
 
 /// Where the mortar side is lifted by `up`, and all nodes press with `pressure`.

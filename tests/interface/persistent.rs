@@ -20,7 +20,7 @@ const MEASURE: Measure = Measure::Thickness(0.45);
 
 fn options(friction: Friction, basis: MultiplierBasis, weights: Weights) -> Options {
     let mu = if friction == Friction::None { 0.0 } else { 0.3 };
-    Options { friction, mu, basis, weights, ..Options::new(Stiffness::Modulus(30.0)) }
+    Options { friction, mu, basis, weights, ..Options::paper(Stiffness::Modulus(30.0)) }
 }
 
 /// Bent lines that have slid and turned, committed there: some nodes overlap.

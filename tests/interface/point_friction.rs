@@ -29,7 +29,7 @@ const CELLS: [[Cells; 2]; 4] = [
 ];
 
 fn by_points(mu: f64) -> Options {
-    let of = Options::new(Stiffness::Modulus(MODULUS));
+    let of = Options::paper(Stiffness::Modulus(MODULUS));
     let (basis, decision, weights) = (MultiplierBasis::Dual, Decision::Points(MODULUS), Weights::Reference);
     Options { basis, decision, weights, friction: Friction::Coulomb, mu, ..of }
 }

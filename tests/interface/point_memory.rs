@@ -31,7 +31,7 @@ const CELLS: [[Cells; 2]; 3] =
     [[Cells::Quads, Cells::Quads], [Cells::Triangles, Cells::Quads], [Cells::Quads, Cells::Triangles]];
 
 fn committed(mu: f64) -> Options {
-    let of = Options::new(Stiffness::Modulus(MODULUS));
+    let of = Options::paper(Stiffness::Modulus(MODULUS));
     let (basis, decision, weights) = (MultiplierBasis::Dual, Decision::Points(MODULUS), Weights::Committed);
     Options { basis, decision, weights, friction: Friction::Coulomb, mu, ..of }
 }

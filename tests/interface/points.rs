@@ -31,7 +31,7 @@ const CELLS: [[Cells; 2]; 4] = [
 const WEIGHTS: [Weights; 3] = [Weights::Current, Weights::Committed, Weights::Reference];
 
 fn by_points(weights: Weights) -> Options {
-    let of = Options::new(Stiffness::Modulus(MODULUS));
+    let of = Options::paper(Stiffness::Modulus(MODULUS));
     let (basis, decision) = (MultiplierBasis::Dual, Decision::Points(MODULUS));
     Options { basis, decision, weights, friction: Friction::None, ..of }
 }

@@ -37,7 +37,7 @@ fn golden_interface(case: &Value) -> super::golden::Golden {
     let (x1, x2) = (points(&case["x1"]), points(&case["x2"]));
     let (n1, n2) = (x1.len(), x2.len());
     let space = if case["multiplier_space"] == "sub" { MultiplierSpace::Sub } else { MultiplierSpace::Corner };
-    let mut options = Options::new(Stiffness::Augmentation(1.0));
+    let mut options = Options::paper(Stiffness::Augmentation(1.0));
     (options.space, options.row_scale, options.new_contact) = (space, RowScale::None, NewContact::KeepFriction);
     options.slip = SlipMeasure::Objective;
     assert_eq!(case["variant"], "objective");
@@ -96,7 +96,7 @@ fn golden_dual_facets_of_quadratic_facets() {
         let mesh = |x: &[Vec3], facets| Mesh { x: x.to_vec(), facets };
         let one = mesh(&x1, vec![(0..x1.len() as i64).collect()]);
         let two = mesh(&x2, nodes_of(&case["facets2"]));
-        let options = Options { basis: MultiplierBasis::Dual, mu: 0.3, ..Options::new(Stiffness::Augmentation(1.0)) };
+        let options = Options { basis: MultiplierBasis::Dual, mu: 0.3, ..Options::paper(Stiffness::Augmentation(1.0)) };
         let mut c: Contact<3> = contact_of(&one, &two, false, options);
         let (n1, n) = (x1.len(), 3 * (x1.len() + x2.len()));
         for a in 0..m {

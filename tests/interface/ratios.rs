@@ -75,7 +75,7 @@ fn forces(
     };
     let x2 = mortar.reference.clone();
     let options =
-        Options { friction: Friction::None, search_distance: distance, ..Options::new(Stiffness::Modulus(100.0)) };
+        Options { friction: Friction::None, search_distance: distance, ..Options::paper(Stiffness::Modulus(100.0)) };
     let mut press: Press<1> = Press::new(Body::new(layer, Vec3::z() * -1.0, 100.0, 0.3), mortar, options);
     let place = |s: f64| Place { plate: Isometry3::translation(0.0, 0.0, lift.z * s), mortar: x2.clone() };
     let (mut found, mut lost) = (Vec::new(), 0);

@@ -24,7 +24,7 @@ const ROUNDING: f64 = 1e-9;
 const YOUNG: f64 = 1000.0;
 
 fn options(friction: Friction) -> Options {
-    Options { friction, ..Options::new(Stiffness::Modulus(YOUNG)) }
+    Options { friction, ..Options::paper(Stiffness::Modulus(YOUNG)) }
 }
 
 /// A layer of hexahedra whose far side is held.

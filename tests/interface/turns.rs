@@ -183,7 +183,7 @@ where
 
 #[test]
 fn a_turn_in_one_step_is_right_after_a_step_at_rest_or_refused() {
-    let base = Options::new(Stiffness::Modulus(100.0));
+    let base = Options::paper(Stiffness::Modulus(100.0));
     for shape in [Shape::ShaftInRing, Shape::BlockOnBlock, Shape::BallInCup, Shape::OnPlane] {
         for degrees in TURNS {
             let smooth = off::<1>(shape, Options { friction: Friction::None, ..base }, degrees);
@@ -200,7 +200,7 @@ fn a_turn_in_one_step_is_right_after_a_step_at_rest_or_refused() {
 /// The table of docs/plug_in.md: how wrong the pressure is where such a step ends, before the next one.
 #[test]
 fn what_a_turn_costs_in_the_step_itself() {
-    let base = Options::new(Stiffness::Modulus(100.0));
+    let base = Options::paper(Stiffness::Modulus(100.0));
     for shape in [Shape::ShaftInRing, Shape::BlockOnBlock, Shape::BallInCup] {
         for degrees in [1.0, 2.0, 5.0, 10.0, 15.0] {
             let smooth = in_the_step::<1>(shape, Options { friction: Friction::None, ..base }, degrees);
@@ -225,7 +225,7 @@ fn a_turn_in_one_step_is_right_with_the_normals_of_now() {
         assert_eq!(closed(&states), closed(&same), "{shape:?} {degrees}");
         error(&found, &wanted)
     }
-    let base = Options { normals: Normals::Current, ..Options::new(Stiffness::Modulus(100.0)) };
+    let base = Options { normals: Normals::Current, ..Options::paper(Stiffness::Modulus(100.0)) };
     for shape in [Shape::ShaftInRing, Shape::BlockOnBlock, Shape::BallInCup, Shape::OnPlane] {
         for degrees in [1.0, 5.0, 15.0, 30.0, 90.0, 150.0] {
             let smooth = worst::<1>(shape, Options { friction: Friction::None, ..base }, degrees);
@@ -243,7 +243,7 @@ fn a_turn_in_one_step_is_right_with_the_normals_of_now() {
 #[test]
 fn a_commit_refuses_every_turn_beyond_the_limit() {
     for shape in [Shape::ShaftInRing, Shape::BlockOnBlock, Shape::BallInCup, Shape::OnPlane] {
-        let base = Options { mu: 0.3, ..Options::new(Stiffness::Modulus(100.0)) };
+        let base = Options { mu: 0.3, ..Options::paper(Stiffness::Modulus(100.0)) };
         for (one, two) in [(true, true), (true, false), (false, true)] {
             for degrees in TURNS {
                 let mut t = Turning::<3>::new(shape, base);
@@ -269,7 +269,7 @@ fn a_commit_refuses_every_turn_beyond_the_limit() {
 /// Tied surfaces and those that are apart may turn; with weights of the reference the whole turn counts; `turn_max`.
 #[test]
 fn what_asks_for_no_normals_may_turn() {
-    let base = Options::new(Stiffness::Modulus(100.0));
+    let base = Options::paper(Stiffness::Modulus(100.0));
     let quarter = 90_f64.to_radians();
     let commit = |options: Options, lift: f64, turns: &[f64]| {
         let mut t = Turning::<3>::new(Shape::BlockOnBlock, options);
@@ -309,8 +309,8 @@ fn what_asks_for_no_normals_may_turn() {
 /// what it must be, so that a step with more than the limit is refused, with every kind of weights and of decision, and nothing has moved.
 #[test]
 fn friction_refuses_a_spin_beyond_the_limit() {
-    let dual = Options { basis: MultiplierBasis::Dual, ..Options::new(Stiffness::Modulus(100.0)) };
-    let base = Options { mu: 0.3, ..Options::new(Stiffness::Modulus(100.0)) };
+    let dual = Options { basis: MultiplierBasis::Dual, ..Options::paper(Stiffness::Modulus(100.0)) };
+    let base = Options { mu: 0.3, ..Options::paper(Stiffness::Modulus(100.0)) };
     let points = Options { decision: Decision::Points(100.0), weights: Weights::Committed, mu: 0.3, ..dual };
     let all = [
         base,
@@ -320,7 +320,7 @@ fn friction_refuses_a_spin_beyond_the_limit() {
         Options { slip: SlipMeasure::Increment, ..base },
         points,
         Options { mu: 0.0, ..base },
-        Options { friction: Friction::Tied, ..Options::new(Stiffness::Modulus(100.0)) },
+        Options { friction: Friction::Tied, ..Options::paper(Stiffness::Modulus(100.0)) },
     ];
     for (k, options) in all.into_iter().enumerate() {
         for degrees in [5.0, 19.0, 21.0, 60.0, 120.0, 179.0] {

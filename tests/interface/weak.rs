@@ -157,7 +157,7 @@ fn strip_on_springs(weak_coverage: f64, modulus: f64, before: f64, over: f64) ->
     let h = 1.0 / n as f64;
     let at = |over: f64| grid(n, 1, [h * over, 0.0], [1.0 + h * over, 1.0], 0.0, false, Cells::Quads);
     let plate = grid(1, 1, [-1.0, -1.0], [1.0, 2.0], 0.0, true, Cells::Quads);
-    let options = Options { friction: Friction::None, weak_coverage, ..Options::new(Stiffness::Modulus(modulus)) };
+    let options = Options { friction: Friction::None, weak_coverage, ..Options::paper(Stiffness::Modulus(modulus)) };
     let mut contact = contact::<1>(&at(before), &plate, true, options);
     let start = at(over).x;
     let (nodes, equations) = (start.len(), 3 * (start.len() + plate.x.len()));

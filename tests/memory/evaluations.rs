@@ -44,6 +44,7 @@ impl Host {
         let size = size_of::<stickslip_options>() as u64;
         // SAFETY: a struct of this size.
         assert_eq!(unsafe { stickslip_options_init(&mut options, size) }, 0);
+        assert_eq!(unsafe { stickslip_options_paper(&mut options) }, 0);
         (options.modulus, options.mu) = (1000.0, 0.3);
         set(&mut options);
         let (analytic, normal) =

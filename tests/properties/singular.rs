@@ -337,7 +337,7 @@ fn evaluate(one: &[Vec3], two: &[Vec3], scheme: Scheme, basis: MultiplierBasis) 
     let (n1, n2) = (one.len(), two.len());
     let facet = |n: usize| [(0..n as i64).collect::<Vec<_>>()];
     let surface = |side, x: &[Vec3], first| Surface::new(side, x.to_vec(), &facet(x.len()), numbered(first, x.len()));
-    let options = Options { scheme, basis, ..Options::new(Stiffness::Augmentation(1.0)) };
+    let options = Options { scheme, basis, ..Options::paper(Stiffness::Augmentation(1.0)) };
     let (a, b) = (surface("nonmortar", one, 0)?, surface("mortar", two, 3 * n1)?);
     let mut contact = Interface::new(a, b, numbered(3 * (n1 + n2), n1), options)?;
     let lambda = vec![Vec3::new(0.1, 0.0, -1.0); n1];

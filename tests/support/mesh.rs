@@ -193,7 +193,7 @@ pub fn moved(options: &Options, cells: [Cells; 2], rough: Roughness, seed: u64) 
 
 /// Options whose augmentation is of the order of the multipliers over the gaps of [`moved`].
 pub fn options() -> Options {
-    let mut options = Options::new(Stiffness::Augmentation(15.0));
+    let mut options = Options::paper(Stiffness::Augmentation(15.0));
     options.mu = 0.7;
     options
 }

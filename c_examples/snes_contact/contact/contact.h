@@ -325,7 +325,6 @@ int32_t law_restore(const Interface *interface, const ContactPart *part);
 /* decision.c; `settle` when bodies are known */
 void           decision_read(Scene *scene, Interface *interface);
 PetscBool      decision_is_points(const Interface *interface);
-int32_t        decision_weights(const Interface *interface);
 PetscErrorCode decision_settle(const Contact *contact, Interface *interface);
 /* store.c: on every rank; at the place of the last evaluation, converged */
 PetscErrorCode contact_store(const Contact *contact, PetscReal *store);

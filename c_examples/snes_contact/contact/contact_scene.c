@@ -36,16 +36,13 @@ static void describe_analytic(Scene *scene, Interface *interface)
   interface->options.radius      = interface->surface[1]->radius;
 }
 
-/* `multiplier_space`: with `corner` all components of a node that is no corner of a face go, in the middle of edges and faces. */
-static PetscErrorCode remove_middles(Scene *scene, const Mesh *mesh, Interface *interface)
+/* With multipliers at corners all components of a node that is no corner of a face go, in the middle of edges and faces. */
+static PetscErrorCode remove_middles(const Mesh *mesh, Interface *interface)
 {
-  static const char *const spaces[] = {"corner", "sub", NULL};
-  PetscInt                 space    = STICKSLIP_SPACE_CORNER;
+  const PetscInt           space    = interface->options.multiplier_space;
   const Surface           *surface  = interface->surface[0];
   PetscInt                *corner, *marks;
   PetscFunctionBegin;
-  scene_choice(scene, interface->name, "multiplier_space", spaces, &space);
-  interface->options.multiplier_space = (int32_t)space;
   if (space == STICKSLIP_SPACE_SUB) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscCalloc2(interface->n1 + interface->n2, &corner, surface->offsets[surface->n_faces], &marks));
   for (PetscInt f = 0; f < surface->n_faces; f++) {
@@ -102,7 +99,7 @@ static PetscErrorCode settle_nodes(Scene *scene, Contact *contact, Interface *in
   PetscCall(PetscCalloc1(n1, &interface->middle));
   for (PetscInt a = 0; a < n1; a++)
     interface->removed[a] = (interface->prescribed[a] & mortar_mask) | symmetry[a];
-  PetscCall(remove_middles(scene, mesh, interface));
+  PetscCall(remove_middles(mesh, interface));
   PetscCall(PetscArraycpy(interface->has_been, interface->removed, n1));
   PetscCall(condensed_refuse_supported(scene, contact, interface));
 
@@ -150,23 +147,33 @@ static const PetscReal TURN_TOLD = 0.03;
 /* Default of `lag_max`: what a mesh shows of a contact's force. */
 static const PetscReal LAG_MAX = 0.1;
 
-/* `basis`, `normals`, `weights`, `slip`, `form`, `new_contact`, the augmentation and the search. */
+/* `method`: the library's own, or the paper's. */
+static PetscErrorCode read_kind(Scene *scene, stickslip_options *options)
+{
+  static const char *const methods[] = {"default", "paper", NULL};
+  PetscInt                 method    = 0;
+  PetscFunctionBegin;
+  scene_choice(scene, NULL, "method", methods, &method);
+  if (method == 1) PetscCallStickslip(stickslip_options_paper(options));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* `basis`, `normals`, `weights`, `multiplier_space`, `slip`, `form`, `new_contact`, the augmentation and the search. */
 static void read_method(Scene *scene, Interface *interface)
 {
-  static const char *const weights[]      = {"current", "committed", "reference", "persistent", NULL};
+  static const char *const weights[]      = {"auto", "current", "committed", "reference", "persistent", NULL};
   static const char *const slips[]        = {"objective", "increment", "paper", NULL};
   static const char *const forms[]        = {"multiplier", "augmented", NULL};
   static const char *const new_contacts[] = {"frictionless", "friction", NULL};
+  static const char *const spaces[]       = {"corner", "sub", NULL};
   static const char *const row_scales[]   = {"force", "none", NULL};
-  static const char *const bases[]        = {"standard", "dual", NULL};
-  static const char *const normals[]      = {"committed", "current", NULL};
+  static const char *const bases[]        = {"auto", "standard", "dual", NULL};
+  static const char *const normals[]      = {"auto", "committed", "current", NULL};
   stickslip_options       *options        = &interface->options;
   const char              *name           = interface->name;
-  const PetscBool          points         = decision_is_points(interface);
-  PetscInt  basis = points ? STICKSLIP_BASIS_DUAL : STICKSLIP_BASIS_STANDARD, normal = STICKSLIP_NORMALS_COMMITTED,
-            weight = points ? decision_weights(interface) : STICKSLIP_WEIGHTS_CURRENT,
+  PetscInt  basis = options->multiplier_basis, normal = options->normals, weight = options->weights,
            slip = STICKSLIP_SLIP_OBJECTIVE, form = STICKSLIP_FORM_MULTIPLIER,
-           new_contact = STICKSLIP_NEW_CONTACT_FRICTIONLESS, row_scale = STICKSLIP_ROW_SCALE_FORCE;
+           new_contact = STICKSLIP_NEW_CONTACT_FRICTIONLESS, row_scale = STICKSLIP_ROW_SCALE_FORCE, space = STICKSLIP_SPACE_CORNER;
   PetscReal augmentation = 0, modulus = 0, distance = 0, weak_coverage = options->weak_coverage, turn_max = 0, coverage_min = options->coverage_min;
 
   char      word[NAME_LENGTH] = "";
@@ -185,6 +192,7 @@ static void read_method(Scene *scene, Interface *interface)
   scene_choice(scene, name, "weights", weights, &weight);
   scene_choice(scene, name, "new_contact", new_contacts, &new_contact);
   scene_choice(scene, name, "row_scale", row_scales, &row_scale);
+  scene_choice(scene, name, "multiplier_space", spaces, &space);
   scene_bool(scene, name, "initial_contact", &interface->initial_contact);
   scene_real(scene, name, "augmentation", &augmentation);
   scene_real(scene, name, "modulus", &modulus);
@@ -217,6 +225,7 @@ static void read_method(Scene *scene, Interface *interface)
   options->form            = (int32_t)form;
   options->new_contact     = (int32_t)new_contact;
   options->row_scale       = (int32_t)row_scale;
+  options->multiplier_space = (int32_t)space;
   options->augmentation    = augmentation;
   options->modulus         = modulus;
   options->search_distance = distance;
@@ -313,11 +322,13 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact)
     PetscCall(PetscSNPrintf(interface->name, NAME_LENGTH, "%s", names[i]));
     PetscCallStickslip(stickslip_options_init(&interface->options, sizeof(interface->options)));
     read_model(&contact->mesh->space, interface);
+    PetscCall(read_kind(scene, &interface->options));
     law_read(scene, &contact->mesh->space, interface);
     mesh_rotate_vector(contact->mesh, interface->law.direction);
     read_effects(scene, interface);
     decision_read(scene, interface);
     read_method(scene, interface);
+    PetscCallStickslip(stickslip_options_settle(&interface->options));
     read_accuracy(scene, interface);
     PetscCall(offsets_read(scene, contact->physics, interface));
   }

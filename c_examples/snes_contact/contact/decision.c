@@ -19,13 +19,6 @@ PetscBool decision_is_points(const Interface *interface)
   return (PetscBool)(interface->options.decision == STICKSLIP_DECISION_POINTS);
 }
 
-/* The weights that points go with where the scene does not say: those of now; with friction points remember tractions, and stay what
- * they are within a step. */
-int32_t decision_weights(const Interface *interface)
-{
-  return interface->options.friction == STICKSLIP_FRICTION_NONE ? STICKSLIP_WEIGHTS_CURRENT : STICKSLIP_WEIGHTS_COMMITTED;
-}
-
 /* E / (1 - nu^2), of plane stress E: what a half-space, or a half-plane, of the material resists with, by its small strains. */
 static PetscReal half_space(const Space *space, const Material *material)
 {

@@ -32,7 +32,7 @@ static const char *form_name(const Output *output)
 }
 
 /* What weights are called in a scene, by STICKSLIP_WEIGHTS_... */
-static const char *const WEIGHTS[] = {"current", "committed", "reference", "persistent"};
+static const char *const WEIGHTS[] = {"", "current", "committed", "reference", "persistent"};
 
 /* The interfaces that decide at points, with what goes with them whether the scene has said so or not, and what the library takes their bodies' stiffness for. */
 static PetscErrorCode add_decisions(const Output *output, cJSON *root)

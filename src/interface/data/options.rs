@@ -21,24 +21,22 @@ pub enum Form {
 }
 
 /// Which configuration the weights belong to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Weights {
     /// The current one, linearised: large sliding.
-    #[default]
     Current,
     /// Frozen at the last commit.
     Committed,
-    /// The same, and what overlaps at t_n counts as closed there: contact does no work to part it (docs/formulation.md 4.9).
-    Persistent,
     /// Frozen, with normals and areas, at the first configuration: small displacements.
     Reference,
+    /// The same, and what overlaps at t_n counts as closed there: contact does no work to part it (docs/formulation.md 4.9).
+    Persistent,
 }
 
 /// Which configuration the normals nu belong to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Normals {
     /// That of the last commit: data of a step, as in the paper.
-    #[default]
     Committed,
     /// The current one, linearised (docs/formulation.md 11).
     Current,
@@ -80,10 +78,9 @@ pub enum RowScale {
 }
 
 /// The functions that multiply the multipliers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MultiplierBasis {
     /// The shape functions, as in the paper.
-    #[default]
     Standard,
     /// Biorthogonal to the shape functions over what is covered of a facet (docs/formulation.md 10).
     Dual,
@@ -148,6 +145,17 @@ pub enum Stiffness {
     Modulus(f64),
 }
 
+/// What a host asks for where the best choice follows from others; `None`: the library's choice, [`Options::settle`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Wishes {
+    /// Standard or dual multipliers.
+    pub basis: Option<MultiplierBasis>,
+    /// Current or frozen weights.
+    pub weights: Option<Weights>,
+    /// Committed or current normals.
+    pub normals: Option<Normals>,
+}
+
 /// All options of an interface.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
@@ -165,6 +173,8 @@ pub struct Options {
     pub weights: Weights,
     /// Committed or current normals.
     pub normals: Normals,
+    /// Whether the library chose the normals: those of a host take their place.
+    pub normals_yield: bool,
     /// Threads that an evaluation may use, at least 1.
     pub threads: usize,
     /// Quadrature of triangles, and against an analytic mortar side.
@@ -220,14 +230,20 @@ pub const TURN_MAX: f64 = PI / 9.0;
 impl Options {
     /// The defaults with the given source of the augmentation.
     pub fn new(stiffness: Stiffness) -> Options {
+        Options::paper(stiffness).settle(Wishes::default())
+    }
+
+    /// The paper's element: standard multipliers, weights of now, normals of the last commit.
+    pub fn paper(stiffness: Stiffness) -> Options {
         Options {
             form: Form::default(),
-            basis: MultiplierBasis::default(),
+            basis: MultiplierBasis::Standard,
             decision: Decision::default(),
             space: MultiplierSpace::Corner,
             slip: SlipMeasure::default(),
-            weights: Weights::default(),
-            normals: Normals::default(),
+            weights: Weights::Current,
+            normals: Normals::Committed,
+            normals_yield: false,
             threads: 1,
             rule: &DEGREE_5,
             scheme: Scheme::default(),
@@ -245,6 +261,37 @@ impl Options {
             search_distance: None,
             turn_max: TURN_MAX,
         }
+    }
+
+    /// With what is wished, and the best of the rest: dual multipliers, weights and normals of now, as far as they go with
+    /// the other options. Where points decide, friction needs weights that stay within a step.
+    #[must_use]
+    pub fn settle(self, wishes: Wishes) -> Options {
+        let stays = self.decision != Decision::Nodes && self.friction != Friction::None;
+        let weights = wishes.weights.unwrap_or(if stays { Weights::Committed } else { Weights::Current });
+        let basis = wishes.basis.unwrap_or(match self.space {
+            MultiplierSpace::Corner => MultiplierBasis::Dual,
+            MultiplierSpace::Sub => MultiplierBasis::Standard,
+        });
+        let settled = Options { weights, basis, normals_yield: wishes.normals.is_none(), ..self };
+        Options { normals: wishes.normals.unwrap_or(settled.best_normals()), ..settled }
+    }
+
+    /// Those of now, unless the weights are frozen or points decide.
+    fn best_normals(&self) -> Normals {
+        let follows = self.weights == Weights::Current && self.decision == Decision::Nodes;
+        if follows { Normals::Current } else { Normals::Committed }
+    }
+
+    /// With normals of the host, or without: they take the place of those that the library chose.
+    #[must_use]
+    pub fn beside_normals(self, of_host: bool) -> Options {
+        let normals = match (self.normals_yield, of_host) {
+            (false, _) => self.normals,
+            (true, true) => Normals::Committed,
+            (true, false) => self.best_normals(),
+        };
+        Options { normals, ..self }
     }
 
     /// Refuses numbers outside their range.

@@ -34,17 +34,29 @@ pub fn effects<const N: usize>(setup: &Setup<N>) -> Result<Text> {
         let nodes = if corner { "the corners (default)" } else { "all nodes (asked for)" };
         text.append(format_args!(" Multipliers of quadratic facets: at {nodes}."))?;
     }
-    if setup.options.basis == MultiplierBasis::Dual {
-        text.append(format_args!(" Multipliers: dual (asked for)."))?;
-    }
+    text.append(format_args!(
+        " Multipliers: {}.",
+        if setup.options.basis == MultiplierBasis::Dual { "dual" } else { "standard" }
+    ))?;
     if setup.decides_at_points() {
         text.append(format_args!(" Decision: at points (asked for)."))?;
     }
-    if setup.options.follows_normals() {
-        text.append(format_args!(" Normals: of now, differentiated (asked for)."))?;
+    if setup.options.friction.law().opens {
+        text.append(format_args!(" Normals: {}.", normals_words(setup)))?;
     }
     text.append(format_args!("{}", weak_sentence(setup)?))?;
     Ok(text)
+}
+
+/// Which normals, and why not those of now where the library chose.
+fn normals_words<const N: usize>(setup: &Setup<N>) -> &'static str {
+    match (setup.options.follows_normals(), setup.options.normals_yield) {
+        _ if setup.nodes.normals.is_some() => "the host's",
+        (true, _) => "of now, differentiated",
+        (false, false) => "of the last commit (asked for)",
+        (false, true) if setup.decides_at_points() => "of the last commit (chosen: points decide)",
+        (false, true) => "of the last commit (chosen: the weights are frozen)",
+    }
 }
 
 /// Only where nodes are carried.

@@ -227,7 +227,7 @@ mod tests {
             let options = Options {
                 search_distance: (round % 2 == 0).then_some(0.1 + 0.2 * random.next().abs()),
                 normals: if round % 4 < 2 { Normals::Committed } else { Normals::Current },
-                ..Options::new(Stiffness::Modulus(1.0))
+                ..Options::paper(Stiffness::Modulus(1.0))
             };
             let Filter::Facets(filter) =
                 settle::filter((&one, &two), &options, (&one.reference, &two.reference), &mut KeptTree::default())

@@ -66,6 +66,7 @@ impl Input {
         input.two.coordinates = input.x2.as_ptr();
         // SAFETY: a struct of its size.
         assert_eq!(unsafe { stickslip_options_init(&mut input.options, size_of::<stickslip_options>() as u64) }, 0);
+        assert_eq!(unsafe { stickslip_options_paper(&mut input.options) }, 0);
         (input.options.mu, input.options.augmentation) = (0.3, 15.0);
         (input.options.mortar_side, input.options.shape, input.options.radius) =
             (STICKSLIP_MORTAR_ANALYTIC, shape, radius);
@@ -111,7 +112,7 @@ fn same_numbers_as_the_core() {
             let equations = |first: i64| (0..4).map(|k| [0, 1, 2].map(|i| first + 3 * k + i)).collect::<Vec<_>>();
             let one = Surface::new("nonmortar", points(&X1), &[NODES.to_vec()], equations(0)).unwrap();
             let two = Surface::analytic("mortar", shape, points(&input.x2)).unwrap();
-            let mut options = Options::new(Stiffness::Augmentation(15.0));
+            let mut options = Options::paper(Stiffness::Augmentation(15.0));
             options.mu = 0.3;
             let mut core = Interface::new(one, two, equations(12), options).unwrap();
             let r = core.residual(&points(&X1), &points(&input.x2), &points(&LAMBDA), None).unwrap();

@@ -195,7 +195,7 @@ fn a_body_with_sharp_edges_that_hovers_touches_nothing() {
             let p = Vec3::new(0.1, 0.2, -depth);
             let frame = [p, p + Vec3::z(), p + Vec3::x(), p + Vec3::y()];
             for apart in [true, false] {
-                let mut options = Options { mu: 0.3, ..Options::new(Stiffness::Modulus(1.0)) };
+                let mut options = Options { mu: 0.3, ..Options::paper(Stiffness::Modulus(1.0)) };
                 (options.shortcuts.apart, options.shortcuts.uncovered) = (apart, apart);
                 let mut contact: Contact<3> = against(&mesh, shape, &frame, options).unwrap();
                 let lambda = vec![Vec3::zeros(); mesh.x.len()];

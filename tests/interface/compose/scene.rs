@@ -154,7 +154,7 @@ impl Scene {
             _ => Friction::Coulomb,
         };
         let mu = if c.is("law", "mu0") { 0.0 } else { 0.3 };
-        let of = under(friction, mu, Options::new(Stiffness::Modulus(MODULUS)));
+        let of = under(friction, mu, Options::paper(Stiffness::Modulus(MODULUS)));
         Options {
             shear_limit: of.shear_limit.map(|_| 1.0),
             basis: if c.is("basis", "dual") { MultiplierBasis::Dual } else { MultiplierBasis::Standard },

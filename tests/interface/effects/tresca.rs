@@ -64,7 +64,7 @@ fn a_dragged_block_is_held_by_the_lesser_bound_at_each_node() {
     const SHEAR: f64 = 0.6;
     let upper = Body::new(grid(4, 2, [0.0, 0.0], [2.0, 1.0], 0.0, false, Cells::Quads), Vec3::z() * 0.5, YOUNG, 0.3);
     let floor = grid(5, 3, [-0.5, -0.3], [3.0, 1.3], 0.0, true, Cells::Quads);
-    let of = Options { mu: MU, ..Options::new(stickslip::interface::Stiffness::Modulus(YOUNG)) };
+    let of = Options { mu: MU, ..Options::paper(stickslip::interface::Stiffness::Modulus(YOUNG)) };
     let mut host = Host::<3>::new(upper, Err(floor), limited(SHEAR, of));
     for step in 0..3 {
         let slide = 0.02 * f64::from(step);
