@@ -109,11 +109,11 @@ static stickslip_interface *create(const scene *s, int32_t basis, int32_t normal
   const stickslip_surface two = {.struct_size = sizeof two, .n_nodes = s->n2, .n_facets = s->f2, .coordinates = s->reference2,
       .facet_offsets = s->offsets2, .facet_nodes = s->nodes2, .equations = s->equations2};
   stickslip_options options;
+  stickslip_method method = {.struct_size = sizeof method, .multiplier_basis = basis, .normals = normals, .threads = threads};
   stickslip_interface *interface = NULL;
   CHECK(stickslip_options_init(&options, sizeof options));
-  options.multiplier_basis = basis, options.normals = normals;
+  options.method = &method;
   options.modulus = 1000.0, options.mu = 0.3;
-  if (threads) options.threads = threads;
   CHECK(stickslip_interface_create(&one, &two, &options, &interface));
   return interface;
 }

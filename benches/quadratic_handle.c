@@ -129,8 +129,9 @@ static way make(const kind *of, int64_t n, int is_linear, int32_t space, int32_t
   const stickslip_surface two = {.struct_size = sizeof two, .n_nodes = n2, .n_facets = w.two.facets, .coordinates = w.two.x,
       .facet_offsets = w.two.offsets, .facet_nodes = w.two.list, .equations = equations + 3 * n1};
   stickslip_options options;
+  stickslip_method method = {.struct_size = sizeof method, .multiplier_space = space, .multiplier_basis = basis};
   CHECK(stickslip_options_init(&options, sizeof options));
-  options.multiplier_space = space, options.multiplier_basis = basis, options.modulus = 1000.0, options.mu = 0.3;
+  options.method = &method, options.modulus = 1000.0, options.mu = 0.3;
   CHECK(stickslip_interface_create(&one, &two, &options, &w.interface));
   free(equations);
   return w;

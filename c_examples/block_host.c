@@ -178,7 +178,7 @@ static void present_positions(void) {
   for (int k = 0; k < 3 * (N1 + N2); k++) x1[k] = X[at(surface_node, k)] + value[at(surface_node, k)];
 }
 
-static void create_contact(int32_t weights) {
+static void create_contact(int small) {
   int64_t equations[3 * (N1 + N2)]; /* the library copies what the surfaces point to */
   for (int k = 0; k < 3 * (N1 + N2); k++) equations[k] = equation[at(surface_node, k)];
   present_positions();
@@ -191,7 +191,7 @@ static void create_contact(int32_t weights) {
   must(stickslip_options_init(&options, sizeof options));
   options.mu = FRICTION;
   options.modulus = YOUNG; /* gives the augmentation its unit; the answer does not depend on it */
-  options.weights = weights;
+  options.small_displacements = small;
   must(stickslip_interface_create(&block, &foundation, &options, &contact));
   must(stickslip_interface_initial_multipliers(contact, lambda)); /* once: where the first step starts */
 }
@@ -278,7 +278,7 @@ int main(int argc, char **argv) {
   if (argc > 2 + current || (argc > 1 + current && argv[1 + current][0] == '-')) stop("usage: [--current] [FILE]");
   make_mesh();
   number_equations();
-  create_contact(current ? STICKSLIP_WEIGHTS_CURRENT : STICKSLIP_WEIGHTS_REFERENCE);
+  create_contact(!current);
 
   for (int step = 1; step <= STEPS; step++) {
     const double time = END_TIME * step / STEPS;

@@ -1,6 +1,6 @@
 /* profile_host.c: frictional mortar contact in a code that has no place for multipliers, and a solver without pivoting.
  *
- * The block of block_host.c, with dual multipliers (STICKSLIP_BASIS_DUAL). They follow from the displacements in each
+ * The block of block_host.c. The multipliers, which are dual, follow from the displacements in each
  * evaluation: unknowns are displacements alone, and the matrix has no zeros on its diagonal. The solver is what old codes
  * have: LU in a profile, unsymmetric, rows as they come. It needs nothing but the library:
  *
@@ -211,7 +211,7 @@ static void present_positions(void) {
   for (int k = 0; k < 3 * (N1 + N2); k++) x1[k] = X[at(surface_node, k)] + value[at(surface_node, k)];
 }
 
-static void create_contact(int32_t weights) {
+static void create_contact(int small) {
   int64_t equations[3 * (N1 + N2)], multipliers[3 * N1];
   for (int k = 0; k < 3 * (N1 + N2); k++) equations[k] = equation[at(surface_node, k)];
   /* y is fixed on both sides: no multiplier along it. The other numbers are those of no equation here. */
@@ -225,8 +225,7 @@ static void create_contact(int32_t weights) {
   must(stickslip_options_init(&options, sizeof options));
   options.mu = friction;
   options.modulus = YOUNG; /* gives the augmentation its unit; the answer does not depend on it */
-  options.multiplier_basis = STICKSLIP_BASIS_DUAL;
-  options.weights = weights;
+  options.small_displacements = small;
   must(stickslip_interface_create(&block, &foundation, &options, &contact));
   must(stickslip_interface_initial_multipliers(contact, lambda));
 }
@@ -333,17 +332,17 @@ static void write_displacements(const char *path) {
 
 int main(int argc, char **argv) {
   double largest_reference = SMALLEST_REFERENCE * YOUNG * MODEL_SIZE * MODEL_SIZE, reference, limit, size, sum[3] = {0};
-  int32_t weights = STICKSLIP_WEIGHTS_REFERENCE;
+  int small = 1;
   int word = 1, all = 0;
   for (; word < argc && argv[word][0] == '-'; word++) {
-    if (!strcmp(argv[word], "--current")) weights = STICKSLIP_WEIGHTS_CURRENT;
+    if (!strcmp(argv[word], "--current")) small = 0;
     else if (!strcmp(argv[word], "--mu") && word + 1 < argc) friction = atof(argv[++word]);
     else if (!strcmp(argv[word], "--push") && word + 1 < argc) push = atof(argv[++word]);
     else stop("usage: [--current] [--mu MU] [--push P] [FILE]");
   }
   make_mesh();
   number_equations();
-  create_contact(weights);
+  create_contact(small);
 
   for (int step = 1; step <= STEPS; step++) {
     const double time = END_TIME * step / STEPS;

@@ -80,20 +80,6 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_NORMALS_COMMITTED = 1
   integer(c_int32_t), parameter :: STICKSLIP_NORMALS_CURRENT = 2
 
-  integer(c_int32_t), parameter :: STICKSLIP_FRICTION_COULOMB = 0
-  integer(c_int32_t), parameter :: STICKSLIP_FRICTION_NONE = 1
-  integer(c_int32_t), parameter :: STICKSLIP_FRICTION_TIED = 2
-  integer(c_int32_t), parameter :: STICKSLIP_FRICTION_ROUGH = 3
-  integer(c_int32_t), parameter :: STICKSLIP_FRICTION_TRESCA = 4
-
-  integer(c_int32_t), parameter :: STICKSLIP_MORTAR_DEFORMABLE = 0
-  integer(c_int32_t), parameter :: STICKSLIP_MORTAR_RIGID = 1
-  integer(c_int32_t), parameter :: STICKSLIP_MORTAR_ANALYTIC = 2
-
-  integer(c_int32_t), parameter :: STICKSLIP_SHAPE_PLANE = 0
-  integer(c_int32_t), parameter :: STICKSLIP_SHAPE_SPHERE = 1
-  integer(c_int32_t), parameter :: STICKSLIP_SHAPE_CYLINDER = 2
-
   ! Added up in no_shortcuts: work that the library is to do although the answer does not depend on it.
   integer(c_int32_t), parameter :: STICKSLIP_SHORTCUT_FRICTIONLESS = 1
   integer(c_int32_t), parameter :: STICKSLIP_SHORTCUT_RIGID = 2
@@ -134,6 +120,21 @@ module stickslip
 
   integer(c_int32_t), parameter :: STICKSLIP_NEW_CONTACT_FRICTIONLESS = 0
   integer(c_int32_t), parameter :: STICKSLIP_NEW_CONTACT_KEEP = 1
+
+  integer(c_int32_t), parameter :: STICKSLIP_FRICTION_COULOMB = 0
+  integer(c_int32_t), parameter :: STICKSLIP_FRICTION_NONE = 1
+  integer(c_int32_t), parameter :: STICKSLIP_FRICTION_TIED = 2
+  integer(c_int32_t), parameter :: STICKSLIP_FRICTION_ROUGH = 3
+  integer(c_int32_t), parameter :: STICKSLIP_FRICTION_TRESCA = 4
+
+  integer(c_int32_t), parameter :: STICKSLIP_MORTAR_DEFORMABLE = 0
+  integer(c_int32_t), parameter :: STICKSLIP_MORTAR_RIGID = 1
+  integer(c_int32_t), parameter :: STICKSLIP_MORTAR_ANALYTIC = 2
+
+  integer(c_int32_t), parameter :: STICKSLIP_SHAPE_PLANE = 0
+  integer(c_int32_t), parameter :: STICKSLIP_SHAPE_SPHERE = 1
+  integer(c_int32_t), parameter :: STICKSLIP_SHAPE_CYLINDER = 2
+
   integer(c_int32_t), parameter :: STICKSLIP_NODE_SHARED = 0
   integer(c_int32_t), parameter :: STICKSLIP_NODE_OWN = 1
   integer(c_int32_t), parameter :: STICKSLIP_NODE_ELSEWHERE = 2
@@ -233,7 +234,8 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_HEAT_SLOPES = 5
 
   ! Sizes of the types in bytes (64-bit machines), their struct_size.
-  integer(c_int64_t), parameter :: stickslip_options_size = 176
+  integer(c_int64_t), parameter :: stickslip_method_size = 104
+  integer(c_int64_t), parameter :: stickslip_options_size = 88
   integer(c_int64_t), parameter :: stickslip_surface_size = 72
   integer(c_int64_t), parameter :: stickslip_states_size = 88
   integer(c_int64_t), parameter :: stickslip_counters_size = 200
@@ -266,41 +268,47 @@ module stickslip
     type(c_ptr) :: handle = c_null_ptr
   end type
 
-  ! Options of an interface. stickslip_options_init writes the defaults, which these zeros are not in every case.
-  type, bind(C) :: stickslip_options
-    integer(c_int64_t) :: struct_size = stickslip_options_size
+  ! How an interface is computed; a host needs none of it. Every 0 is the library's choice.
+  type, bind(C) :: stickslip_method
+    integer(c_int64_t) :: struct_size = stickslip_method_size
     integer(c_int32_t) :: form = 0                 ! STICKSLIP_FORM_...
     integer(c_int32_t) :: slip = 0                 ! STICKSLIP_SLIP_...
     integer(c_int32_t) :: weights = 0              ! STICKSLIP_WEIGHTS_...
-    integer(c_int32_t) :: friction = 0             ! STICKSLIP_FRICTION_...
-    integer(c_int32_t) :: mortar_side = 0          ! STICKSLIP_MORTAR_...
     integer(c_int32_t) :: multiplier_basis = 0     ! STICKSLIP_BASIS_...
+    integer(c_int32_t) :: normals = 0              ! STICKSLIP_NORMALS_...
+    integer(c_int32_t) :: multiplier_space = STICKSLIP_SPACE_CORNER ! where quadratic facets have multipliers
+    integer(c_int32_t) :: decision = 0             ! STICKSLIP_DECISION_...: nodes or points are closed
     integer(c_int32_t) :: quadrature = 0           ! STICKSLIP_QUADRATURE_...
     integer(c_int32_t) :: row_scale = 0            ! STICKSLIP_ROW_SCALE_...
     integer(c_int32_t) :: new_contact = 0          ! STICKSLIP_NEW_CONTACT_...
-    integer(c_int32_t) :: index_base = 0           ! 0, or 1 as in Fortran: nodes, equations, rows, columns
-    real(c_double) :: mu = 0                       ! Coulomb coefficient of all nodes
-    real(c_double) :: augmentation = 0             ! rhat [F/L^3]; 0: use the modulus
-    real(c_double) :: modulus = 0                  ! Young's modulus of the softer body [F/L^2]
-    real(c_double) :: coverage_min = 0             ! covered / full area at and below which a node is uncovered
-    real(c_double) :: search_distance = 0          ! 0: as far as the surfaces reach [L]
-    integer(c_int32_t) :: no_shortcuts = 0         ! sum of STICKSLIP_SHORTCUT_...; 0: all are taken
-    integer(c_int32_t) :: shape = 0                ! STICKSLIP_SHAPE_... with STICKSLIP_MORTAR_ANALYTIC, else 0
-    real(c_double) :: radius = 0                   ! of sphere and cylinder [L]; < 0: the body is outside
     integer(c_int32_t) :: integration = 0          ! STICKSLIP_INTEGRATION_...
     integer(c_int32_t) :: tangent = 0              ! STICKSLIP_TANGENT_...
+    integer(c_int32_t) :: no_shortcuts = 0         ! sum of STICKSLIP_SHORTCUT_...; 0: all are taken
+    integer(c_int32_t) :: threads = 0              ! that values, residual and commit may use; 0: the calling one alone
     integer(c_int64_t) :: element_points = 0       ! along a side, without SEGMENTS: 2 to 10; 0: 4
+    real(c_double) :: augmentation = 0             ! rhat [F/L^3]; 0: use the modulus
+    real(c_double) :: coverage_min = 0             ! covered / full area at and below which a node is uncovered
     real(c_double) :: weak_coverage = 0            ! nodes covered less, over the best neighbour, are carried; 0: the
                                                    ! library's choice, 0.2 with dual multipliers, else none; or ..._NONE
     real(c_double) :: turn_max = 0                 ! radians from one commit to the next; 0: pi / 9; pi: any
-    real(c_double) :: shear_limit = 0              ! largest shear traction, > 0 with TRESCA [F/L^2]
-    integer(c_int32_t) :: normals = 0              ! STICKSLIP_NORMALS_...
-    integer(c_int32_t) :: threads = 0              ! that values, residual and commit may use; 0: the calling one alone
-    integer(c_int32_t) :: multiplier_space = STICKSLIP_SPACE_CORNER ! where quadratic facets have multipliers
+  end type
+
+  ! What an interface models. stickslip_options_init writes the defaults, which are those of this type.
+  type, bind(C) :: stickslip_options
+    integer(c_int64_t) :: struct_size = stickslip_options_size
+    type(c_ptr) :: method = c_null_ptr             ! c_loc of a stickslip_method; null: as the library chooses
+    integer(c_int32_t) :: friction = 0             ! STICKSLIP_FRICTION_...
+    integer(c_int32_t) :: mortar_side = 0          ! STICKSLIP_MORTAR_...
+    integer(c_int32_t) :: shape = 0                ! STICKSLIP_SHAPE_... with STICKSLIP_MORTAR_ANALYTIC, else 0
     integer(c_int32_t) :: model = STICKSLIP_MODEL_SOLID ! STICKSLIP_MODEL_...: in space, or lines
+    integer(c_int32_t) :: small_displacements = 0  ! 1: weights and normals stay those of the first configuration
+    integer(c_int32_t) :: index_base = 0           ! 0, or 1 as in Fortran: nodes, equations, rows, columns
+    real(c_double) :: mu = 0                       ! Coulomb coefficient of all nodes
+    real(c_double) :: shear_limit = 0              ! largest shear traction, > 0 with TRESCA [F/L^2]
     real(c_double) :: thickness = 0                ! of a plane model [L]; 0: 1
-    integer(c_int32_t) :: decision = 0             ! STICKSLIP_DECISION_...: nodes or points are closed
-    integer(c_int32_t) :: reserved = 0             ! 0
+    real(c_double) :: radius = 0                   ! of sphere and cylinder [L]; < 0: the body is outside
+    real(c_double) :: modulus = 0                  ! Young's modulus of the softer body [F/L^2]
+    real(c_double) :: search_distance = 0          ! 0: as far as the surfaces reach [L]
   end type
 
   ! One surface of an interface. nf facets with 3, 4, 6, 8 or 9 nodes each: corners, mid nodes, centre.
@@ -623,16 +631,17 @@ module stickslip
       integer(c_int64_t), value :: struct_size
     end function
 
-    ! After stickslip_options_init: the paper's element, standard multipliers with normals of the last commit.
+    ! After stickslip_options_init: the method is that of the paper's element, standard multipliers with normals of the last commit.
     integer(c_int32_t) function stickslip_options_paper(options) bind(C)
       import :: c_int32_t, stickslip_options
       type(stickslip_options), intent(inout) :: options
     end function
 
-    ! Replaces what is AUTO by what an interface with these options takes.
-    integer(c_int32_t) function stickslip_options_settle(options) bind(C)
-      import :: c_int32_t, stickslip_options
-      type(stickslip_options), intent(inout) :: options
+    ! The method of an interface with these options, with what the library chooses for weights, basis and normals.
+    integer(c_int32_t) function stickslip_options_method(options, method) bind(C)
+      import :: c_int32_t, stickslip_options, stickslip_method
+      type(stickslip_options), intent(in) :: options
+      type(stickslip_method), intent(inout) :: method
     end function
 
     ! Splits the nodes on creases until no fan of facets around a node spans more than angle (radians):

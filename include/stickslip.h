@@ -53,7 +53,7 @@
  *
  * A host with an assembled interface:
  *
- *     options_init, interface_create         once
+ *     options_init, interface_create         once (options_paper, options_method: for comparisons)
  *     interface_initial_multipliers          once, before the first step: lambda = 0 at zero gap is a body without
  *                                            support
  *     interface_pattern_coo                  to preallocate a matrix
@@ -195,7 +195,7 @@
 /// An imported history does not belong to this interface.
 #define STICKSLIP_HISTORY_MISMATCH 16
 
-/// Within the step a surface has turned by more than options.turn_max: the normals of t_n no longer mean it. Commit
+/// Within the step a surface has turned by more than method.turn_max: the normals of t_n no longer mean it. Commit
 /// smaller steps. With STICKSLIP_WEIGHTS_REFERENCE it is the turn since the first configuration, which none shortens: take
 /// STICKSLIP_WEIGHTS_CURRENT.
 #define STICKSLIP_TURNED_TOO_FAR 17
@@ -258,44 +258,6 @@
 /// use no normals. Which facets look at each other follows the motion, too.
 /// Not with (UNSUPPORTED): frozen weights; points that decide (STICKSLIP_DECISION_POINTS); normals of the host.
 #define STICKSLIP_NORMALS_CURRENT 2
-
-/// Coulomb friction with the coefficient mu (0 allowed). Default.
-#define STICKSLIP_FRICTION_COULOMB 0
-
-/// One multiplier per node, along the normal: multiplier_equations, lambda and rows have n1 entries. No slip history.
-#define STICKSLIP_FRICTION_NONE 1
-
-/// Mesh tying: a node that is covered in the first configuration keeps its place; weights of the reference. A gap at the
-/// start stays, and turns with the non-mortar facets; linear where there is none.
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS).
-#define STICKSLIP_FRICTION_TIED 2
-
-/// Opens and closes, never slips.
-#define STICKSLIP_FRICTION_ROUGH 3
-
-/// Coulomb friction with the coefficient mu, up to a largest shear traction, shear_limit.
-#define STICKSLIP_FRICTION_TRESCA 4
-
-/// The mortar side deforms (or is prescribed, where it has no equations). Default.
-#define STICKSLIP_MORTAR_DEFORMABLE 0
-
-/// The mortar side is rigid or prescribed (no equations): no rows and columns for it in the tangent.
-#define STICKSLIP_MORTAR_RIGID 1
-
-/// The mortar side is rigid and in closed form, STICKSLIP_SHAPE_...: no facets, no search. Its stickslip_surface has
-/// four nodes (of lines three), a frame that is fixed to it and that the host moves as a rigid body: see there.
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); offsets of the mortar nodes; offsets that follow
-/// from a shape.
-#define STICKSLIP_MORTAR_ANALYTIC 2
-
-/// A plane; of lines a straight line. Default.
-#define STICKSLIP_SHAPE_PLANE 0
-
-/// A sphere; of lines a circle.
-#define STICKSLIP_SHAPE_SPHERE 1
-
-/// A circular cylinder without ends; of lines a circle.
-#define STICKSLIP_SHAPE_CYLINDER 2
 
 /// Coulomb with mu = 0 at every node: no slip is computed (and none reported).
 #define STICKSLIP_SHORTCUT_FRICTIONLESS 1
@@ -389,7 +351,7 @@
 /// (STICKSLIP_FRICTION_COULOMB) and weights of now (STICKSLIP_WEIGHTS_CURRENT); friction (STICKSLIP_FRICTION_COULOMB) and
 /// the paper's slip measure (STICKSLIP_SLIP_PAPER); standard multipliers (STICKSLIP_BASIS_STANDARD); persistent weights
 /// (STICKSLIP_WEIGHTS_PERSISTENT); normals of now (STICKSLIP_NORMALS_CURRENT); the augmented form
-/// (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (options.element_points); nodes that others carry
+/// (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (method.element_points); nodes that others carry
 /// (weak_coverage > 0, the default of dual multipliers); an analytic mortar side; facets with mid nodes; a law of one's own;
 /// offsets and weights of now (STICKSLIP_WEIGHTS_CURRENT); parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE); nodes
 /// that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes (stickslip_interface_set_committed) and friction
@@ -407,6 +369,44 @@
 
 /// It keeps its mu (a sticking one then has zero tangential rows).
 #define STICKSLIP_NEW_CONTACT_KEEP 1
+
+/// Coulomb friction with the coefficient mu (0 allowed). Default.
+#define STICKSLIP_FRICTION_COULOMB 0
+
+/// One multiplier per node, along the normal: multiplier_equations, lambda and rows have n1 entries. No slip history.
+#define STICKSLIP_FRICTION_NONE 1
+
+/// Mesh tying: a node that is covered in the first configuration keeps its place; weights of the reference. A gap at the
+/// start stays, and turns with the non-mortar facets; linear where there is none.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS).
+#define STICKSLIP_FRICTION_TIED 2
+
+/// Opens and closes, never slips.
+#define STICKSLIP_FRICTION_ROUGH 3
+
+/// Coulomb friction with the coefficient mu, up to a largest shear traction, shear_limit.
+#define STICKSLIP_FRICTION_TRESCA 4
+
+/// The mortar side deforms (or is prescribed, where it has no equations). Default.
+#define STICKSLIP_MORTAR_DEFORMABLE 0
+
+/// The mortar side is rigid or prescribed (no equations): no rows and columns for it in the tangent.
+#define STICKSLIP_MORTAR_RIGID 1
+
+/// The mortar side is rigid and in closed form, STICKSLIP_SHAPE_...: no facets, no search. Its stickslip_surface has
+/// four nodes (of lines three), a frame that is fixed to it and that the host moves as a rigid body: see there.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); offsets of the mortar nodes; offsets that follow
+/// from a shape.
+#define STICKSLIP_MORTAR_ANALYTIC 2
+
+/// A plane; of lines a straight line. Default.
+#define STICKSLIP_SHAPE_PLANE 0
+
+/// A sphere; of lines a circle.
+#define STICKSLIP_SHAPE_SPHERE 1
+
+/// A circular cylinder without ends; of lines a circle.
+#define STICKSLIP_SHAPE_CYLINDER 2
 
 /// Of `owned` in `stickslip_surface`. The node's multiplier acts on the facets of this handle, and another handle adds the node's
 /// own block; the sums over all handles make its gap (`stickslip_interface_sums`).
@@ -619,9 +619,10 @@ typedef struct stickslip_interface stickslip_interface;
 /// at a time.
 typedef struct stickslip_rigid stickslip_rigid;
 
-/// Options of an interface; `stickslip_options_init` writes the defaults.
-typedef struct stickslip_options {
-  /// sizeof(stickslip_options), as `stickslip_options_init` sets it.
+/// How an interface is computed: a host needs none of it (`method` of `stickslip_options` is NULL). Every member's 0 is the library's
+/// choice, so that {.struct_size = sizeof(stickslip_method)} is what NULL is.
+typedef struct stickslip_method {
+  /// sizeof(stickslip_method).
   uint64_t struct_size;
   /// STICKSLIP_FORM_...
   int32_t form;
@@ -629,53 +630,40 @@ typedef struct stickslip_options {
   int32_t slip;
   /// STICKSLIP_WEIGHTS_...
   int32_t weights;
-  /// STICKSLIP_FRICTION_...
-  int32_t friction;
-  /// STICKSLIP_MORTAR_...
-  int32_t mortar_side;
   /// STICKSLIP_BASIS_...
   int32_t multiplier_basis;
+  /// STICKSLIP_NORMALS_...
+  int32_t normals;
+  /// STICKSLIP_SPACE_..., for interfaces with quadratic facets: where the multipliers of such facets stand. Nodes of
+  /// the non-mortar side at which no facet has a multiplier have no multiplier equations (-1).
+  int32_t multiplier_space;
+  /// STICKSLIP_DECISION_...: whether nodes or points are closed.
+  int32_t decision;
   /// STICKSLIP_QUADRATURE_...
   int32_t quadrature;
   /// STICKSLIP_ROW_SCALE_...
   int32_t row_scale;
   /// STICKSLIP_NEW_CONTACT_...
   int32_t new_contact;
-  /// 0 (default, C) or 1 (Fortran): base of node numbers, equations, rows, columns and row offsets. Not of
-  /// facet_offsets.
-  int32_t index_base;
-  /// Coulomb coefficient of all nodes [-]; default 0, and 0 with FRICTION_NONE, _ROUGH and _TIED.
-  double mu;
+  /// STICKSLIP_INTEGRATION_... (of no effect against an analytic mortar side: there is nothing to clip).
+  int32_t integration;
+  /// STICKSLIP_TANGENT_... (of no effect with frozen weights). The answer does not depend on it.
+  int32_t tangent;
+  /// Sum of the STICKSLIP_SHORTCUT_... that the library is not to take; 0 (default): it takes all.
+  int32_t no_shortcuts;
+  /// Threads that `stickslip_interface_plan_values`, the residual and a commit may use, 1 to 256; 0 (default): the calling one
+  /// alone. They end with the call. The results are the same bit for bit, whatever their number.
+  int32_t threads;
+  /// Points along a side with STICKSLIP_INTEGRATION_ELEMENTS and HYBRID: 2 to 10; 0 (default): 4. Otherwise 0.
+  int64_t element_points;
   /// rhat [F/L^3]; 0 (default): use the modulus. One of the two is needed: nothing else has the unit
   /// of a stiffness. The answer does not depend on it, except with STICKSLIP_DECISION_POINTS.
   double augmentation;
-  /// Young's modulus of the softer body [F/L^2]: rhat_A = 0.1 E / h_A, h_A = sqrt(M_A), of lines about their length; 0 (default): use the
-  /// augmentation. With STICKSLIP_DECISION_POINTS it is needed, and is E* of both bodies together.
-  double modulus;
   /// A node whose covered area over its full area [-] is at most this counts as uncovered; default 1e-8. Where a
   /// surface slides off an edge, the tractions of nodes that are hardly covered grow like the inverse of their
   /// coverage, and the least singular value of a scaled Newton matrix goes down to about a thousandth of this number.
   /// 1e-4 is milder there.
   double coverage_min;
-  /// Facets farther apart than this along the normal at the last commit, gap or penetration, are no pair
-  /// [L]. 0 (default): any gap, and a penetration of one facet (the smaller of the two) beyond what the curved
-  /// surfaces lie off their facets, so that the far side of a body is not found; a fine mortar surface that dips into
-  /// coarse non-mortar facets is followed down from where it enters them, by as much as a coarse facet is long. Give it
-  /// where the mortar surface lies in layers (refused otherwise) or the surfaces start deeper in each other than a facet.
-  double search_distance;
-  /// Sum of the STICKSLIP_SHORTCUT_... that the library is not to take; 0 (default): it takes all.
-  int32_t no_shortcuts;
-  /// STICKSLIP_SHAPE_... with STICKSLIP_MORTAR_ANALYTIC, else 0.
-  int32_t shape;
-  /// With STICKSLIP_MORTAR_ANALYTIC [L]. Sphere, cylinder: > 0: a ball, a bar; < 0: a cavity, a bore, the body
-  /// outside. Plane, and where there is no shape: 0.
-  double radius;
-  /// STICKSLIP_INTEGRATION_... (of no effect against an analytic mortar side: there is nothing to clip).
-  int32_t integration;
-  /// STICKSLIP_TANGENT_... (of no effect with frozen weights). The answer does not depend on it.
-  int32_t tangent;
-  /// Points along a side with STICKSLIP_INTEGRATION_ELEMENTS and HYBRID: 2 to 10; 0 (default): 4. Otherwise 0.
-  int64_t element_points;
   /// A node covered less than this times its best covered neighbour at t_n [-] has no multiplier of its own in the
   /// step: covered neighbours carry it, lambda_A = sum_B w_AB lambda_B with sum_B w_AB = 1, and its gap counts in
   /// their rows. They carry newly covered nodes too, with friction, up to four facets away. At most 1; 0 (default): the
@@ -694,27 +682,49 @@ typedef struct stickslip_options {
   /// the moment of friction is cos(spin / 2) of what it must be. At most pi, which refuses nothing;
   /// 0 (default): pi / 9, 20 degrees. What a turn below it costs: docs/plug_in.md.
   double turn_max;
-  /// With STICKSLIP_FRICTION_TRESCA the largest shear traction, > 0 [F/L^2]; else 0 (default).
-  double shear_limit;
-  /// STICKSLIP_NORMALS_...
-  int32_t normals;
-  /// Threads that `stickslip_interface_plan_values`, the residual and a commit may use, 1 to 256; 0 (default): the calling one
-  /// alone. They end with the call. The results are the same bit for bit, whatever their number.
-  int32_t threads;
-  /// STICKSLIP_SPACE_..., for interfaces with quadratic facets: where the multipliers of such facets stand. Nodes of
-  /// the non-mortar side at which no facet has a multiplier have no multiplier equations (-1).
-  int32_t multiplier_space;
+} stickslip_method;
+
+/// What an interface models; `stickslip_options_init` writes the defaults.
+typedef struct stickslip_options {
+  /// sizeof(stickslip_options), as `stickslip_options_init` sets it.
+  uint64_t struct_size;
+  /// How it is computed; NULL (default): as the library chooses. Read during the call alone.
+  const struct stickslip_method *method;
+  /// STICKSLIP_FRICTION_...
+  int32_t friction;
+  /// STICKSLIP_MORTAR_...
+  int32_t mortar_side;
+  /// STICKSLIP_SHAPE_... with STICKSLIP_MORTAR_ANALYTIC, else 0.
+  int32_t shape;
   /// STICKSLIP_MODEL_...: whether facets are of a model in space, or lines of a plane or axisymmetric one. With lines every array of
   /// vectors of this interface has two components a node in place of three: positions, forces, multipliers, normals,
   /// directions; so have equations. The frame of an analytic mortar side has three points. What
   /// lines do not go with: docs/compose.md.
   int32_t model;
+  /// 1: displacements are small against the facets: weights, normals and areas stay those of the first configuration, which saves
+  /// work. 0 (default): as large as they like.
+  int32_t small_displacements;
+  /// 0 (default, C) or 1 (Fortran): base of node numbers, equations, rows, columns and row offsets. Not of
+  /// facet_offsets.
+  int32_t index_base;
+  /// Coulomb coefficient of all nodes [-]; default 0, and 0 with FRICTION_NONE, _ROUGH and _TIED.
+  double mu;
+  /// With STICKSLIP_FRICTION_TRESCA the largest shear traction, > 0 [F/L^2]; else 0 (default).
+  double shear_limit;
   /// Thickness of a plane model [L]; 0 (default): 1. 0 of other models.
   double thickness;
-  /// STICKSLIP_DECISION_...: whether nodes or points are closed.
-  int32_t decision;
-  /// 0.
-  int32_t reserved;
+  /// With STICKSLIP_MORTAR_ANALYTIC [L]. Sphere, cylinder: > 0: a ball, a bar; < 0: a cavity, a bore, the body
+  /// outside. Plane, and where there is no shape: 0.
+  double radius;
+  /// Young's modulus of the softer body [F/L^2]: rhat_A = 0.1 E / h_A, h_A = sqrt(M_A), of lines about their length; 0 (default): use the
+  /// augmentation. With STICKSLIP_DECISION_POINTS it is needed, and is E* of both bodies together.
+  double modulus;
+  /// Facets farther apart than this along the normal at the last commit, gap or penetration, are no pair
+  /// [L]. 0 (default): any gap, and a penetration of one facet (the smaller of the two) beyond what the curved
+  /// surfaces lie off their facets, so that the far side of a body is not found; a fine mortar surface that dips into
+  /// coarse non-mortar facets is followed down from where it enters them, by as much as a coarse facet is long. Give it
+  /// where the mortar surface lies in layers (refused otherwise) or the surfaces start deeper in each other than a facet.
+  double search_distance;
 } stickslip_options;
 
 /// One surface of an interface.
@@ -1257,7 +1267,7 @@ typedef struct stickslip_law_answer {
 /// ended here; both have as many as were announced, and states_after begins as a copy. Returns 0, or any other number to have the
 /// evaluation refused (INVALID_VALUE, which names the node): within Newton a domain error.
 ///
-/// It runs in the call of the library that needs it, in the calling thread, whatever options.threads says, for closed nodes one after
+/// It runs in the call of the library that needs it, in the calling thread, whatever method.threads says, for closed nodes one after
 /// the other. It must not call the library with any interface (refused), nor change one; it must not throw, and not leave by longjmp. Traps of
 /// floating point are off while it runs, and it must leave rounding as it is. In Fortran: a function with bind(C), by c_funloc.
 typedef int32_t (*stickslip_threshold)(void *user,
@@ -1365,7 +1375,8 @@ const char *stickslip_status_string(int32_t status);
 int32_t stickslip_options_init(struct stickslip_options *options,
                                uint64_t struct_size);
 
-/// Makes options those of the paper's element: standard multipliers, weights of now, normals of the last commit. Other members stay.
+/// Sets `method` of options to that of the paper's element: standard multipliers, weights of now, normals of the last commit. It is the
+/// library's and stays; to change a member of it, copy it.
 ///
 /// options: in and out, after `stickslip_options_init`.
 ///
@@ -1373,13 +1384,15 @@ int32_t stickslip_options_init(struct stickslip_options *options,
 /// Cost: a copy.
 int32_t stickslip_options_paper(struct stickslip_options *options);
 
-/// Replaces what is AUTO in options by what an interface with these options takes: `stickslip_interface_effects` says it of a handle.
+/// The method of an interface with these options: with the weights, the basis and the normals that the library chooses where options
+/// leave them. `stickslip_interface_effects` says it of a handle in words.
 ///
-/// options: in and out, complete but for the stiffness.
+/// options: complete but for the stiffness. method, output; may be `options->method` itself.
 ///
-/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_VALUE.
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_VALUE, NOT_FINITE.
 /// Cost: a copy.
-int32_t stickslip_options_settle(struct stickslip_options *options);
+int32_t stickslip_options_method(const struct stickslip_options *options,
+                                 struct stickslip_method *method);
 
 /// Splits the nodes on creases of a non-mortar surface: gives each fan of facets that look nearly the same way nodes of
 /// its own, until no two corner normals around a node differ by more than angle. A node of a sharp edge or corner then
@@ -1967,7 +1980,7 @@ int32_t stickslip_interface_step_limit(struct stickslip_interface *interface,
 /// Inputs x1, x2, lambda, sums as for `stickslip_interface_states`.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (a
-/// mortar surface in layers, an analytic surface's frame), TURNED_TOO_FAR (by more than options.turn_max since the last commit;
+/// mortar surface in layers, an analytic surface's frame), TURNED_TOO_FAR (by more than method.turn_max since the last commit;
 /// with friction against each other, too), CONTACT_LOST (a closed node would lose a pair that is deeper than one may be, or all
 /// that covers it); then nothing has moved.
 /// Cost: as `stickslip_interface_states`, then O(n1 + n2) for what the next step needs. Of facets between which there can be

@@ -15,7 +15,7 @@ program block_elements
   use band_matrix
   use block_model
   use handle_elements, only: begin, elmt_handle, in_equilibrium, last_message, next_step, nodes_in_states, refusal, &
-      residual_only, tangent_and_residual, the_end, contact_weights => weights ! names of its own: FEAP has many
+      residual_only, tangent_and_residual, the_end, small_displacements => small ! names of its own: FEAP has many
   use solid_element
   use stickslip, only: STICKSLIP_OK, STICKSLIP_WEIGHTS_CURRENT, STICKSLIP_WEIGHTS_REFERENCE
   implicit none
@@ -56,7 +56,7 @@ program block_elements
   print '(a, 3f15.9)', 'displacement top left ', u(1:3, block_node(0, 0, mz))
   print '(a, 3f15.9)', 'displacement top right', u(1:3, block_node(mx, 0, mz))
   if (file /= '') call write_displacements
-  if (contact_weights == STICKSLIP_WEIGHTS_CURRENT) call check_refusal ! frozen weights see no facet shrink
+  if (.not. small_displacements) call check_refusal ! frozen weights see no facet shrink
   call the_end
 
 contains
@@ -64,11 +64,11 @@ contains
   subroutine read_arguments
     character(200) :: word
     integer :: i
-    contact_weights = STICKSLIP_WEIGHTS_REFERENCE
+    small_displacements = .true.
     do i = 1, command_argument_count()
       call get_command_argument(i, word)
       if (i == 1 .and. word == '--current') then
-        contact_weights = STICKSLIP_WEIGHTS_CURRENT
+        small_displacements = .false.
       else if (word(1:1) /= '-' .and. file == '') then
         file = word
       else

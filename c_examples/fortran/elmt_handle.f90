@@ -22,15 +22,15 @@ module handle_elements
   use stickslip, only: stickslip_equilibrium, stickslip_interface, stickslip_interface_commit, stickslip_interface_create, &
       stickslip_interface_destroy, stickslip_interface_equilibrium, stickslip_interface_initial_multipliers, &
       stickslip_interface_residual, stickslip_interface_states, stickslip_interface_tangent_coo, stickslip_last_error_padded, &
-      STICKSLIP_OK, stickslip_options, stickslip_options_init, stickslip_options_size, stickslip_states, stickslip_surface, &
-      STICKSLIP_WEIGHTS_CURRENT
+      STICKSLIP_OK, stickslip_options, stickslip_options_init, stickslip_options_paper, stickslip_options_size, &
+      stickslip_states, stickslip_surface
   implicit none
   private
   public :: begin, elmt_handle, in_equilibrium, last_message, next_step, nodes_in_states, refusal, residual_only, &
-      tangent_and_residual, the_end, weights
+      tangent_and_residual, the_end, small
 
   integer, parameter :: tangent_and_residual = 3, residual_only = 6, next_step = 12, begin = 14 ! isw
-  integer(c_int32_t) :: weights = STICKSLIP_WEIGHTS_CURRENT
+  logical :: small = .false.
   integer(c_int32_t) :: refusal = STICKSLIP_OK
   character(300) :: last_message = ''
 
@@ -186,10 +186,13 @@ contains
     mortar = stickslip_surface(n_nodes=size(nodes2), n_facets=nf2, coordinates=c_loc(x2), facet_offsets=c_loc(offsets2), &
         facet_nodes=c_loc(facets2), equations=c_loc(equations2))
     call must(stickslip_options_init(options, stickslip_options_size))
+    ! An element here is a pair of facets. The paper's couples what belongs to a pair alone; dual multipliers and normals of
+    ! now couple its neighbours, too.
+    call must(stickslip_options_paper(options))
     options%index_base = 1
     options%mu = friction
     options%modulus = young ! gives the augmentation its unit; the answer does not depend on it
-    options%weights = weights
+    options%small_displacements = merge(1, 0, small)
     call must(stickslip_interface_create(nonmortar, mortar, options, contact))
     call must(stickslip_interface_initial_multipliers(contact, start))
     created = .true.

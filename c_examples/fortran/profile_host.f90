@@ -1,6 +1,6 @@
 ! profile_host: frictional mortar contact in a code that has no place for multipliers, and a solver without pivoting.
 !
-! The block of block_model.f90 with dual multipliers (STICKSLIP_BASIS_DUAL), on the interface handle. The multipliers follow
+! The block of block_model.f90 on the interface handle, with dual multipliers. The multipliers follow
 ! from the displacements in each evaluation: unknowns are displacements alone, and the matrix has no zeros on its diagonal.
 ! The solver is what old codes have, profile_matrix.f90. It is ../profile_host.c in Fortran's words.
 !
@@ -32,7 +32,7 @@ program profile_host
   real(dp) :: lambda(3, n1), host(3, n1), rows1(3, n1), force2(3, n2)
   real(dp) :: f(3, numnp)                                     ! residual; where a value is prescribed, its reaction
   real(dp) :: mu = friction, reference, largest_reference, limit, residual
-  integer(c_int32_t) :: weights = STICKSLIP_WEIGHTS_REFERENCE
+  logical :: small = .true.
   logical :: starting = .true.                                ! lambda is given: no force has followed from displacements yet
   character(200) :: file = ''
   integer :: step, iterations, all_iterations = 0
@@ -74,7 +74,7 @@ contains
       call get_command_argument(i, word)
       select case (word)
       case ('--current')
-        weights = STICKSLIP_WEIGHTS_CURRENT
+        small = .false.
       case ('--mu', '--push')
         if (word == '--mu') call read_number(i + 1, mu)
         if (word == '--push') call read_number(i + 1, push)
@@ -160,8 +160,7 @@ contains
     options%index_base = 1
     options%mu = mu
     options%modulus = young ! gives the augmentation its unit; the answer does not depend on it
-    options%multiplier_basis = STICKSLIP_BASIS_DUAL
-    options%weights = weights
+    options%small_displacements = merge(1, 0, small)
     call must(stickslip_interface_create(block_side, foundation, options, contact))
     call must(stickslip_interface_initial_multipliers(contact, lambda))
   end subroutine

@@ -391,7 +391,7 @@ impl Arrays {
     }
 }
 
-fn options(bytes: &mut Bytes, base: i64) -> Struct<stickslip_options> {
+fn options(bytes: &mut Bytes, base: i64) -> (Struct<stickslip_options>, Box<stickslip_method>) {
     // SAFETY: numbers alone.
     let mut options = Struct::new(unsafe { std::mem::zeroed::<stickslip_options>() });
     let size = bytes.integer(size_of::<stickslip_options>() as i64) as u64;
@@ -403,34 +403,37 @@ fn options(bytes: &mut Bytes, base: i64) -> Struct<stickslip_options> {
     o.index_base = base as i32;
     o.modulus = bytes.number(1000.0);
     o.friction = bytes.choice(4);
-    o.form = bytes.choice(2);
-    o.weights = bytes.choice(5);
+    let mut m = Box::new(unsafe { std::mem::zeroed::<stickslip_method>() });
+    m.struct_size = size_of::<stickslip_method>() as u64;
+    m.form = bytes.choice(2);
+    m.weights = bytes.choice(5);
     for _ in 0..bytes.below(4) {
         match bytes.below(13) {
-            0 => o.slip = bytes.choice(3),
+            0 => m.slip = bytes.choice(3),
             1 => o.mortar_side = bytes.choice(3),
-            2 => o.multiplier_basis = bytes.choice(3),
-            3 => o.quadrature = bytes.choice(6),
-            4 => o.row_scale = bytes.choice(2),
-            5 => o.new_contact = bytes.choice(2),
+            2 => m.multiplier_basis = bytes.choice(3),
+            3 => m.quadrature = bytes.choice(6),
+            4 => m.row_scale = bytes.choice(2),
+            5 => m.new_contact = bytes.choice(2),
             6 => o.index_base = bytes.choice(2),
             7 => o.mu = bytes.number(0.3),
-            8 => o.augmentation = bytes.number(1.0),
-            9 => o.coverage_min = bytes.number(1e-4),
-            10 => o.no_shortcuts = bytes.choice(16),
-            11 => (o.normals, o.threads) = (bytes.choice(3), bytes.choice(4)),
+            8 => m.augmentation = bytes.number(1.0),
+            9 => m.coverage_min = bytes.number(1e-4),
+            10 => m.no_shortcuts = bytes.choice(16),
+            11 => (m.normals, m.threads) = (bytes.choice(3), bytes.choice(4)),
             _ => (o.shape, o.radius) = (bytes.choice(4), bytes.number(1.0)),
         }
     }
+    o.method = if bytes.once_in(4) { null() } else { &raw const *m };
     options.declare(bytes);
-    options
+    (options, m)
 }
 
 fn create_calls(bytes: &mut Bytes) {
     let base = bytes.below(2) as i64;
     let (a1, a2) = (Arrays::new(bytes, base, false), Arrays::new(bytes, base, true));
     let (mut one, mut two) = (a1.surface(bytes, true), a2.surface(bytes, false));
-    let mut options = options(bytes, base);
+    let (mut options, _method) = options(bytes, base);
     let mut handle = std::ptr::dangling_mut::<stickslip_interface>();
     let [p, q] = [one.pointer(), two.pointer()].map(|p| bytes.pointer(p));
     let status = unsafe { stickslip_interface_create(p, q, bytes.pointer(options.pointer()), &mut handle) };

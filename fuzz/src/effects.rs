@@ -170,13 +170,13 @@ fn equilibrium(scene: &Scene, bytes: &mut Bytes) {
 pub fn run(data: &[u8]) {
     let mut bytes = Bytes(data);
     let what = bytes.below(3);
-    let Some(mut scene) = Scene::with(&mut bytes, |bytes, options| match what {
+    let Some(mut scene) = Scene::with(&mut bytes, |bytes, options, method| match what {
         0 => {
-            options.decision = STICKSLIP_DECISION_POINTS;
+            method.decision = STICKSLIP_DECISION_POINTS;
             options.friction = STICKSLIP_FRICTION_NONE;
-            options.multiplier_basis = STICKSLIP_BASIS_DUAL;
-            options.weights = 2 + bytes.choice(2);
-            (options.mu, options.shear_limit, options.normals) = (0.0, 0.0, 0);
+            method.multiplier_basis = STICKSLIP_BASIS_DUAL;
+            method.weights = 2 + bytes.choice(2);
+            (options.mu, options.shear_limit, method.normals) = (0.0, 0.0, 0);
         }
         1 => {
             options.friction = STICKSLIP_FRICTION_COULOMB;

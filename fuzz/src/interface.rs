@@ -37,7 +37,10 @@ pub(super) fn shake(bytes: &mut Bytes, x: &mut [f64]) {
 
 impl Scene {
     /// A scene of any options, which are then changed.
-    pub(super) fn with(bytes: &mut Bytes, change: impl FnOnce(&mut Bytes, &mut stickslip_options)) -> Option<Scene> {
+    pub(super) fn with(
+        bytes: &mut Bytes,
+        change: impl FnOnce(&mut Bytes, &mut stickslip_options, &mut stickslip_method),
+    ) -> Option<Scene> {
         let (mut x1, mut x2) = (grid(3, 0.0, 2.0, -0.01), grid(4, -0.5, 3.0, 0.0));
         if bytes.once_in(2) {
             shake(bytes, &mut x1);
@@ -46,26 +49,29 @@ impl Scene {
         // SAFETY: numbers alone; then as large as it says.
         let mut options: stickslip_options = unsafe { std::mem::zeroed() };
         assert!(succeeded(unsafe { stickslip_options_init(&mut options, size_of::<stickslip_options>() as u64) }));
-        options.form = bytes.choice(2);
-        options.slip = bytes.choice(3);
-        options.weights = bytes.choice(5);
+        let mut method: stickslip_method = unsafe { std::mem::zeroed() };
+        method.struct_size = size_of::<stickslip_method>() as u64;
+        method.form = bytes.choice(2);
+        method.slip = bytes.choice(3);
+        method.weights = bytes.choice(5);
         options.friction = bytes.choice(5);
         options.mortar_side = bytes.choice(2);
-        options.quadrature = bytes.choice(6);
-        options.row_scale = bytes.choice(2);
-        options.new_contact = bytes.choice(2);
-        options.no_shortcuts = bytes.choice(16);
+        method.quadrature = bytes.choice(6);
+        method.row_scale = bytes.choice(2);
+        method.new_contact = bytes.choice(2);
+        method.no_shortcuts = bytes.choice(16);
         let limited = options.friction == STICKSLIP_FRICTION_TRESCA;
         options.mu = bytes.number(if limited || options.friction == STICKSLIP_FRICTION_COULOMB { 0.3 } else { 0.0 });
         options.shear_limit = if limited { bytes.number(0.5) } else { 0.0 };
         options.modulus = bytes.number(1000.0);
-        options.augmentation = if options.modulus == 0.0 { bytes.number(15.0) } else { 0.0 };
-        options.multiplier_basis = bytes.choice(3);
-        options.normals = if options.weights <= STICKSLIP_WEIGHTS_CURRENT { bytes.choice(3) } else { bytes.choice(2) };
-        options.coverage_min = bytes.number(1e-8);
+        method.augmentation = if options.modulus == 0.0 { bytes.number(15.0) } else { 0.0 };
+        method.multiplier_basis = bytes.choice(3);
+        method.normals = if method.weights <= STICKSLIP_WEIGHTS_CURRENT { bytes.choice(3) } else { bytes.choice(2) };
+        method.coverage_min = bytes.number(1e-8);
         options.search_distance = bytes.number(0.0);
-        options.multiplier_space = bytes.choice(2);
-        change(bytes, &mut options);
+        method.multiplier_space = bytes.choice(2);
+        change(bytes, &mut options, &mut method);
+        options.method = &raw const method;
         let kind = bytes.below(KINDS);
         let dimension = if kind < 3 { 3 } else { 2 };
         if dimension == 2 {
@@ -92,9 +98,9 @@ impl Scene {
             let k = bytes.below(e3.len());
             e3[k] = -1;
         }
-        let counted = if options.multiplier_space == STICKSLIP_SPACE_CORNER { corners.len() } else { N1 };
+        let counted = if method.multiplier_space == STICKSLIP_SPACE_CORNER { corners.len() } else { N1 };
         // Multipliers at the corners alone; now and then at all nodes, which is refused.
-        if options.multiplier_space == STICKSLIP_SPACE_CORNER && !bytes.once_in(8) {
+        if method.multiplier_space == STICKSLIP_SPACE_CORNER && !bytes.once_in(8) {
             for a in (0..N1).filter(|a| !corners.contains(a)) {
                 e3[components * a..components * (a + 1)].fill(-1);
             }
@@ -118,7 +124,7 @@ impl Scene {
         let lambda = (0..components * N1).map(|k| if (k + 1) % components == 0 { -1.0 } else { 0.1 }).collect();
         (!handle.is_null()).then_some(Scene {
             handle,
-            weights: options.weights,
+            weights: method.weights,
             forged: false,
             dimension,
             components,
@@ -397,7 +403,7 @@ impl Scene {
 /// Takes one input; panics where a law is broken.
 pub fn run(data: &[u8]) {
     let mut bytes = Bytes(data);
-    let Some(mut scene) = Scene::with(&mut bytes, |_, _| ()) else { return };
+    let Some(mut scene) = Scene::with(&mut bytes, |_, _, _| ()) else { return };
     for _ in 0..8 {
         if bytes.is_empty() {
             break;

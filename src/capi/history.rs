@@ -11,7 +11,7 @@ use crate::error::{Error, Kind};
 /// Inputs x1, x2, lambda, sums as for `stickslip_interface_states`.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (a
-/// mortar surface in layers, an analytic surface's frame), TURNED_TOO_FAR (by more than options.turn_max since the last commit;
+/// mortar surface in layers, an analytic surface's frame), TURNED_TOO_FAR (by more than method.turn_max since the last commit;
 /// with friction against each other, too), CONTACT_LOST (a closed node would lose a pair that is deeper than one may be, or all
 /// that covers it); then nothing has moved.
 /// Cost: as `stickslip_interface_states`, then O(n1 + n2) for what the next step needs. Of facets between which there can be

@@ -99,7 +99,7 @@ pub struct stickslip_law_answer {
 /// ended here; both have as many as were announced, and states_after begins as a copy. Returns 0, or any other number to have the
 /// evaluation refused (INVALID_VALUE, which names the node): within Newton a domain error.
 ///
-/// It runs in the call of the library that needs it, in the calling thread, whatever options.threads says, for closed nodes one after
+/// It runs in the call of the library that needs it, in the calling thread, whatever method.threads says, for closed nodes one after
 /// the other. It must not call the library with any interface (refused), nor change one; it must not throw, and not leave by longjmp. Traps of
 /// floating point are off while it runs, and it must leave rounding as it is. In Fortran: a function with bind(C), by c_funloc.
 pub type stickslip_threshold = Option<

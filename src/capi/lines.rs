@@ -1,10 +1,10 @@
 //! A pair of lines of a plane or axisymmetric model, as a caller gives it to the functions of pairs (`pair.rs`).
 
 use super::facet::check_distinct;
+use super::method::rule;
 use super::model::{measure, model};
 use super::nodal::{self, Two};
 use super::node::stickslip_node_response;
-use super::options::rule;
 use super::pair_in::stickslip_pair;
 use super::parents::check_linear_alone;
 use super::raw::{self, Output};

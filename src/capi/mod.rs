@@ -28,6 +28,7 @@ mod status;
 
 mod message;
 
+mod method;
 mod options;
 
 mod surface;
@@ -113,6 +114,7 @@ pub use interface::*;
 pub use law::*;
 pub use layout::*;
 pub use message::*;
+pub use method::*;
 pub use model::*;
 pub use node::*;
 pub use normals::*;

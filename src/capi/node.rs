@@ -2,7 +2,8 @@
 
 use super::guard::guard;
 use super::layout::column_major;
-use super::options::{law, law_numbers, slip_measure};
+use super::method::slip_measure;
+use super::options::{law, law_numbers};
 use super::raw;
 use super::sized::{self, Sized64};
 use crate::error::{Error, Kind, Result};

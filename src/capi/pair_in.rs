@@ -2,9 +2,9 @@
 
 use super::facet::{facet, set_neighbours};
 use super::layout::column_major;
+use super::method::{element_line, rule};
 use super::model::{STICKSLIP_MODEL_SOLID, measure, model};
 use super::node::stickslip_node_response;
-use super::options::{element_line, rule};
 use super::pair_out::slot;
 use super::raw;
 use super::sized::{self, Sized64};

@@ -2,9 +2,9 @@
 //! need no room for these.
 
 use super::facet::parent;
+use super::method::rule;
 use super::nodal::{self, Two};
 use super::node::stickslip_node_response;
-use super::options::rule;
 use super::pair_in::stickslip_pair;
 use super::raw;
 use super::space::multiplier_space;

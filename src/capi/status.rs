@@ -35,7 +35,7 @@ pub const STICKSLIP_MISSING_ENTRY: i32 = 14;
 pub const STICKSLIP_NOTHING_TO_ROLL_BACK: i32 = 15;
 /// An imported history does not belong to this interface.
 pub const STICKSLIP_HISTORY_MISMATCH: i32 = 16;
-/// Within the step a surface has turned by more than options.turn_max: the normals of t_n no longer mean it. Commit
+/// Within the step a surface has turned by more than method.turn_max: the normals of t_n no longer mean it. Commit
 /// smaller steps. With STICKSLIP_WEIGHTS_REFERENCE it is the turn since the first configuration, which none shortens: take
 /// STICKSLIP_WEIGHTS_CURRENT.
 pub const STICKSLIP_TURNED_TOO_FAR: i32 = 17;

@@ -83,12 +83,13 @@ static int choose(const char *word, const char *const words[])
 int main(int argc, char **argv)
 {
   static const char *const laws[] = {"coulomb", "none", "weakening", "orthotropic", "callback", NULL}, *const sides[] = {"deformable", "rigid", "analytic", NULL},
-                           *const weights[] = {"current", "committed", "reference", NULL};
+                           *const weights[] = {"auto", "current", "committed", "reference", NULL};
   static double  x1[3 * NODES1], x2[3 * NODES2], lambda[3 * NODES1], force1[3 * NODES1], force2[3 * NODES2], rows[3 * NODES1];
   static int64_t offsets1[N1 * N1 + 1], nodes1[4 * N1 * N1], offsets2[N2 * N2 + 1], nodes2[4 * N2 * N2];
   static int64_t equations1[3 * NODES1], equations2[3 * NODES2], multipliers[3 * NODES1];
   stickslip_surface    upper = {.struct_size = sizeof upper}, lower = {.struct_size = sizeof lower};
   stickslip_options    options;
+  stickslip_method     method = {.struct_size = sizeof method};
   stickslip_interface *contact  = NULL;
   stickslip_counters   counters = {.struct_size = sizeof counters};
   int64_t              capacity = 0, count, n_equations;
@@ -99,7 +100,8 @@ int main(int argc, char **argv)
   options.friction    = choose(argv[1], laws);
   if (options.friction > STICKSLIP_FRICTION_NONE) options.friction = STICKSLIP_FRICTION_COULOMB; /* its place is another law's */
   options.mortar_side = choose(argv[2], sides);
-  options.weights     = choose(argv[3], weights);
+  method.weights      = choose(argv[3], weights);
+  options.method      = &method;
   options.modulus     = MODULUS;
   options.mu          = options.friction == STICKSLIP_FRICTION_COULOMB ? 0.3 : 0;
   const int components = options.friction == STICKSLIP_FRICTION_NONE ? 1 : 3;

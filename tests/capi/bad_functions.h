@@ -92,6 +92,8 @@ FUNCTION(node_equilibrium, (a[0], b.stiffness, b.rounding, a[1], a[2], a[3]), {"
          {"gap", b.every.node_equilibrium, OPTIONAL}, {"traction", b.every.node_equilibrium + 1, OPTIONAL},
          {"slip", b.every.node_equilibrium + 2, OPTIONAL})
 FUNCTION(options_init, (a[0], (uint64_t)b.options_size), {"options", &b.every.options, NEEDED})
+FUNCTION(options_paper, (a[0]), {"options", &S.options, NEEDED})
+FUNCTION(options_method, (a[0], a[1]), {"options", &S.options, NEEDED}, {"method", &S.method, NEEDED})
 FUNCTION(last_error_padded, (a[0], b.length), {"text", b.every.last_error, LETTERS})
 FUNCTION(surface_split_creases, (a[0], b.angle, b.index_base, b.capacity, a[1], a[2], a[3]),
          {"surface", &S.nonmortar, NEEDED}, {"facet_nodes", b.every.split_nodes, NEEDED},
@@ -234,7 +236,7 @@ static const struct {
     NAMED(pair_begin), NAMED(pair_state_gap), NAMED(pair_state_residual), NAMED(pair_state_tangent),
     NAMED(facet_dual), NAMED(pair_dual), NAMED(facet_tangent),
     NAMED(facet_normal), NAMED(node_normal), NAMED(node_respond), NAMED(node_block), NAMED(node_equilibrium),
-    NAMED(options_init), NAMED(last_error_padded), NAMED(surface_split_creases), NAMED(lines_split_creases), NAMED(crosspoints_find),
+    NAMED(options_init), NAMED(options_paper), NAMED(options_method), NAMED(last_error_padded), NAMED(surface_split_creases), NAMED(lines_split_creases), NAMED(crosspoints_find),
     NAMED(interface_create), NAMED(interface_destroy), NAMED(interface_set_friction), NAMED(interface_set_augmentation),
     NAMED(interface_set_normals), NAMED(interface_set_constraints), NAMED(interface_set_previous),
     NAMED(interface_set_committed),

@@ -75,23 +75,25 @@ impl<'a> Case<'a> {
         let mut options = sized!(stickslip_options);
         ok!(stickslip_options_init(&mut options, size_of::<stickslip_options>() as u64));
         ok!(stickslip_options_paper(&mut options));
-        options.augmentation = 1.0;
-        options.weak_coverage = STICKSLIP_WEAK_COVERAGE_NONE;
-        options.slip = slip_option(of);
-        options.row_scale = STICKSLIP_ROW_SCALE_NONE;
-        options.new_contact = STICKSLIP_NEW_CONTACT_KEEP;
-        options.form = form;
-        options.quadrature = STICKSLIP_QUADRATURE_DEGREE_10;
+        // SAFETY: the library's.
+        let mut method = unsafe { *options.method };
+        method.augmentation = 1.0;
+        method.weak_coverage = STICKSLIP_WEAK_COVERAGE_NONE;
+        method.slip = slip_option(of);
+        method.row_scale = STICKSLIP_ROW_SCALE_NONE;
+        method.new_contact = STICKSLIP_NEW_CONTACT_KEEP;
+        method.form = form;
+        method.quadrature = STICKSLIP_QUADRATURE_DEGREE_10;
         options.model = match of["model"].as_str().unwrap() {
             "plane" => STICKSLIP_MODEL_PLANE,
             "axisymmetric" => STICKSLIP_MODEL_AXISYMMETRIC,
             _ => STICKSLIP_MODEL_SOLID,
         };
         options.thickness = of["thickness"].as_f64().unwrap_or(0.0);
-        options.multiplier_basis = [STICKSLIP_BASIS_STANDARD, STICKSLIP_BASIS_DUAL][usize::from(of["basis"] == "dual")];
-        options.multiplier_space =
+        method.multiplier_basis = [STICKSLIP_BASIS_STANDARD, STICKSLIP_BASIS_DUAL][usize::from(of["basis"] == "dual")];
+        method.multiplier_space =
             [STICKSLIP_SPACE_CORNER, STICKSLIP_SPACE_SUB][usize::from(of["multiplier_space"] == "sub")];
-        options.normals = [STICKSLIP_NORMALS_COMMITTED, STICKSLIP_NORMALS_CURRENT][usize::from(normals == "current")];
+        method.normals = [STICKSLIP_NORMALS_COMMITTED, STICKSLIP_NORMALS_CURRENT][usize::from(normals == "current")];
         if let Some(shape) = of["shape"].as_str() {
             options.mortar_side = STICKSLIP_MORTAR_ANALYTIC;
             options.shape = if shape == "plane" { STICKSLIP_SHAPE_PLANE } else { STICKSLIP_SHAPE_CYLINDER };
@@ -100,6 +102,7 @@ impl<'a> Case<'a> {
         if one {
             options.friction = STICKSLIP_FRICTION_NONE;
         }
+        options.method = &raw const method;
         let mut case = Case { of, fields: &of[normals], handle: null_mut(), x, lambda: Vec::new(), d, m };
         case.lambda = flat(&of[if one { "lambda_N" } else { "lambda" }]);
         ok!(stickslip_interface_create(&nonmortar, &mortar, &options, &mut case.handle));

@@ -32,6 +32,7 @@ typedef struct {
   history exported; /* what history_import takes */
   /* Outputs. */
   stickslip_options options;
+  stickslip_method method;
   stickslip_interface *other;
   int64_t split_nodes[16], originals[2 * N1], split_count;
   int64_t shared_nodes[8], shared_claims[8], shared_count;
@@ -97,6 +98,11 @@ static inline int32_t every_pair_dual(every *c) { return call_pair_dual(&c->e); 
 static inline int32_t every_facet_tangent(every *c) { return call_facet_tangent(&c->e); }
 static inline int32_t every_normal(every *c) { return call_normal(&c->e); }
 static inline int32_t every_options_init(every *c) { return stickslip_options_init(&c->options, sizeof c->options); }
+static inline int32_t every_options_paper(every *c) { return stickslip_options_paper(&c->options); }
+static inline int32_t every_options_method(every *c) {
+  c->method.struct_size = sizeof c->method;
+  return stickslip_options_method(&c->h.s.options, &c->method);
+}
 static inline int32_t every_padded(every *c) { return stickslip_last_error_padded(c->last_error, sizeof c->last_error); }
 static inline int32_t every_split(every *c) {
   return stickslip_surface_split_creases(&c->h.s.nonmortar, 0.5, (int32_t)c->h.s.options.index_base, COUNT(c->originals),
@@ -173,17 +179,18 @@ static inline int32_t every_constraints(every *c) {
   return stickslip_interface_set_constraints(c->h.s.interface, 1, &node, across);
 }
 /* How the offset of a carried node turns is not in the tangent, and what surfaces overlap by may not count as closed: refused. */
-static inline int every_offsets_unsupported(const stickslip_options *o) {
+static inline int every_offsets_unsupported(const scene *s) {
+  const stickslip_method *o = &s->method;
   if (o->weights == STICKSLIP_WEIGHTS_PERSISTENT) return 1;
   const int carries = o->weak_coverage > 0.0 || (o->weak_coverage == 0.0 && o->multiplier_basis == STICKSLIP_BASIS_DUAL);
-  return o->normals == STICKSLIP_NORMALS_CURRENT && o->friction != STICKSLIP_FRICTION_NONE && carries;
+  return o->normals == STICKSLIP_NORMALS_CURRENT && s->options.friction != STICKSLIP_FRICTION_NONE && carries;
 }
 static inline int32_t every_offsets(every *c) {
   const stickslip_options *o = &c->h.s.options;
   double one[N1], two[N2];
   /* Powers of two: exact, for a caller's inexact operations may be trapped. */
-  for (int a = 0; a < N1; ++a) one[a] = every_offsets_unsupported(o) ? 0.0 : 0x1p-10 * a;
-  for (int a = 0; a < N2; ++a) two[a] = every_offsets_unsupported(o) ? 0.0 : -0x1p-10 * a;
+  for (int a = 0; a < N1; ++a) one[a] = every_offsets_unsupported(&c->h.s) ? 0.0 : 0x1p-10 * a;
+  for (int a = 0; a < N2; ++a) two[a] = every_offsets_unsupported(&c->h.s) ? 0.0 : -0x1p-10 * a;
   return stickslip_interface_set_offsets(c->h.s.interface, one, o->mortar_side == STICKSLIP_MORTAR_ANALYTIC ? NULL : two);
 }
 static inline int32_t every_no_offsets(every *c) { return stickslip_interface_set_offsets(c->h.s.interface, NULL, NULL); }
@@ -244,7 +251,7 @@ static inline int32_t every_heat_coo(every *c) {
   const scene *s = &c->h.s;
   const stickslip_heat heat = every_heat_law();
   const int32_t which =
-      s->options.normals == STICKSLIP_NORMALS_CURRENT ? STICKSLIP_HEAT_TEMPERATURES : STICKSLIP_HEAT_ALL;
+      s->method.normals == STICKSLIP_NORMALS_CURRENT ? STICKSLIP_HEAT_TEMPERATURES : STICKSLIP_HEAT_ALL;
   if (!every_has_heat(c)) return STICKSLIP_OK;
   return stickslip_interface_heat_tangent_coo(s->interface, s->x1, s->x2, s->lambda, &heat, c->heat_t1, c->heat_t2, c->heat_e1,
                                               c->heat_e2, which, COUNT(c->heat_columns), c->plan_columns, c->heat_columns,
@@ -358,7 +365,7 @@ static inline int32_t every_condensed_csr(every *c) { return call_condensed_csr(
 static inline int32_t every_condensed_pattern(every *c) { return every_triplets(c, 4, call_condensed_pattern(&c->h)); }
 
 static inline int32_t every_use_normals(every *c) {
-  return stickslip_interface_use_normals(c->h.s.interface, c->h.s.options.normals);
+  return stickslip_interface_use_normals(c->h.s.interface, c->h.s.method.normals);
 }
 static inline int32_t every_use_committed(every *c) {
   return stickslip_interface_use_normals(c->h.s.interface, STICKSLIP_NORMALS_COMMITTED);
@@ -467,7 +474,7 @@ static const entry_point every_call[] = {
     {"node_block", every_block},
     {"facet_geometry", every_facet},
     {"node_normal", every_normal},
-    {"options_init", every_options_init},
+    {"options_init", every_options_init}, {"options_paper", every_options_paper}, {"options_method", every_options_method},
     {"last_error_padded", every_padded},
     {"surface_split_creases", every_split},
     {"surface_split_creases, bent", every_split_bent},
@@ -647,10 +654,12 @@ static inline int32_t every_refusal(int k) {
     case 81: return stickslip_node_heat(NULL, 0.0, 0.0, 0.0, 1.0, 0.0, NULL, NULL, NULL);
     case 82: return stickslip_interface_commit_check(NULL, NULL, NULL, NULL, NULL);
     case 83: return stickslip_lines_split_creases(NULL, 1.0, 0, 0, NULL, NULL, NULL);
+    case 84: return stickslip_options_paper(NULL);
+    case 85: return stickslip_options_method(NULL, NULL);
     default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
   }
 }
-enum { REFUSALS = 85 };
+enum { REFUSALS = 87 };
 
 /* Room and sizes for the structs that come out. */
 static inline void every_room(every *c) {

@@ -288,14 +288,14 @@ impl Golden {
     }
 
     pub fn with_basis(case: &Value, form: i32, quadrature: i32, basis: i32) -> Golden {
-        Golden::with_options(case, |options| {
-            (options.form, options.quadrature, options.multiplier_basis) = (form, quadrature, basis);
+        Golden::with_options(case, |_, method| {
+            (method.form, method.quadrature, method.multiplier_basis) = (form, quadrature, basis);
         })
     }
 
     /// Where each covered node has a multiplier of its own. Normals are the golden ones where they are data; without
     /// friction the multipliers are those along the normal.
-    pub fn with_options(case: &Value, choose: impl Fn(&mut stickslip_options)) -> Golden {
+    pub fn with_options(case: &Value, choose: impl Fn(&mut stickslip_options, &mut stickslip_method)) -> Golden {
         let (x1, x2) = (flat(&case["x1"]), flat(&case["x2"]));
         let mut equations: Vec<i64> = (0..(2 * x1.len() + x2.len()) as i64).collect();
         let arrays = |v: &Value| {
@@ -328,12 +328,15 @@ impl Golden {
         let mut options = sized!(stickslip_options);
         ok!(stickslip_options_init(&mut options, size_of::<stickslip_options>() as u64));
         ok!(stickslip_options_paper(&mut options));
-        options.augmentation = 1.0;
-        options.weak_coverage = STICKSLIP_WEAK_COVERAGE_NONE;
-        options.slip = slip_option(case);
-        options.row_scale = STICKSLIP_ROW_SCALE_NONE;
-        options.new_contact = STICKSLIP_NEW_CONTACT_KEEP;
-        choose(&mut options);
+        // SAFETY: the library's.
+        let mut method = unsafe { *options.method };
+        method.augmentation = 1.0;
+        method.weak_coverage = STICKSLIP_WEAK_COVERAGE_NONE;
+        method.slip = slip_option(case);
+        method.row_scale = STICKSLIP_ROW_SCALE_NONE;
+        method.new_contact = STICKSLIP_NEW_CONTACT_KEEP;
+        choose(&mut options, &mut method);
+        options.method = &raw const method;
         let frictional = options.friction != STICKSLIP_FRICTION_NONE;
         let mut handle = null_mut();
         ok!(stickslip_interface_create(&one, &two, &options, &mut handle));
@@ -345,7 +348,7 @@ impl Golden {
             ok!(stickslip_interface_set_friction(handle, per_node(&case["mu"], n1).as_ptr()));
         }
         ok!(stickslip_interface_set_augmentation(handle, per_node(&case["r"], n1).as_ptr()));
-        if options.normals == STICKSLIP_NORMALS_COMMITTED {
+        if method.normals == STICKSLIP_NORMALS_COMMITTED {
             ok!(stickslip_interface_set_normals(handle, flat(&case["nu"]).as_ptr()));
         }
         Golden { handle, x1, x2, lambda: flat(&case[if frictional { "lambda" } else { "lambda_N" }]) }

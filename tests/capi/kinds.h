@@ -55,17 +55,18 @@ static inline void set_up(const kind *k, every *c) {
   memset(c, 0, sizeof *c);
   scene *s = &c->h.s;
   scene_init(s);
-  s->options.form = k->form;
+  s->method.form = k->form;
   s->options.friction = k->friction;
-  s->options.weights = k->weights;
-  s->options.integration = k->integration;
-  s->options.multiplier_basis = k->basis;
-  s->options.normals = k->normals;
-  s->options.weak_coverage = k->weak_coverage;
+  s->method.weights = k->weights;
+  s->method.integration = k->integration;
+  /* What a kind does not say is the paper's. */
+  if (k->basis) s->method.multiplier_basis = k->basis;
+  if (k->normals) s->method.normals = k->normals;
+  s->method.weak_coverage = k->weak_coverage;
   s->options.shear_limit = k->shear_limit;
   if (!has_mu(k->friction)) s->options.mu = 0.0;
   if (k->points) {
-    s->options.decision = STICKSLIP_DECISION_POINTS;
+    s->method.decision = STICKSLIP_DECISION_POINTS;
     if (s->options.modulus == 0.0) s->options.modulus = 100.0;
   }
   if (k->rigid || k->analytic) {
@@ -104,9 +105,9 @@ static inline int is_of_nodes(const entry_point *entry) {
 static inline int belongs(const kind *k, const entry_point *entry) {
   if (k->points && is_of_nodes(entry)) return 0;
   if (entry->call == every_friction) return has_mu(k->friction);
-  if (entry->call == every_normals) return k->normals == STICKSLIP_NORMALS_COMMITTED;
+  if (entry->call == every_normals) return k->normals != STICKSLIP_NORMALS_CURRENT;
   if (is_condensed(entry->name)) return k->basis == STICKSLIP_BASIS_DUAL && k->form == STICKSLIP_FORM_MULTIPLIER;
-  return entry->call != every_with_sums || (k->weak_coverage == 0.0 && k->basis == STICKSLIP_BASIS_STANDARD);
+  return entry->call != every_with_sums || (k->weak_coverage == 0.0 && k->basis != STICKSLIP_BASIS_DUAL);
 }
 
 static inline void end(every *c) {

@@ -21,12 +21,12 @@ const FORMS: [(i32, &str, &str); 2] = [
     (STICKSLIP_FORM_AUGMENTED, "residual", "tangent_current"),
 ];
 
-fn open(case: &Value, choose: impl Fn(&mut stickslip_options)) -> Golden {
-    Golden::with_options(case, |options| {
-        options.normals = STICKSLIP_NORMALS_CURRENT;
+fn open(case: &Value, choose: impl Fn(&mut stickslip_options, &mut stickslip_method)) -> Golden {
+    Golden::with_options(case, |options, method| {
+        method.normals = STICKSLIP_NORMALS_CURRENT;
         let dual = case["basis"] == "dual";
-        options.multiplier_basis = if dual { STICKSLIP_BASIS_DUAL } else { STICKSLIP_BASIS_STANDARD };
-        choose(options);
+        method.multiplier_basis = if dual { STICKSLIP_BASIS_DUAL } else { STICKSLIP_BASIS_STANDARD };
+        choose(options, method);
     })
 }
 
@@ -39,7 +39,7 @@ fn golden_normals_and_residuals() {
     let mut worst = [0.0_f64; 2];
     for case in golden("golden_normals.json") {
         for (form, residual, _) in FORMS {
-            let g = open(&case, |options| options.form = form);
+            let g = open(&case, |_, method| method.form = form);
             let states: Vec<f64> = g.states().into_iter().map(f64::from).collect();
             assert_eq!(states, numbers(&case["state"]), "{}", name(&case));
             let errors = [difference(&g.normals(), &flat(&case["nu"])), residual_off(&g, &case[residual])];
@@ -63,7 +63,7 @@ fn golden_tangents_with_current_normals() {
                 continue; // left out of the small copy
             }
             let quadrature = if affine { STICKSLIP_QUADRATURE_DEGREE_5 } else { STICKSLIP_QUADRATURE_DEGREE_10 };
-            let g = open(&case, |options| (options.form, options.quadrature) = (form, quadrature));
+            let g = open(&case, |_, method| (method.form, method.quadrature) = (form, quadrature));
             let matrix = dense(&expected[tangent], g.ends()[3]);
             let error = tangent_error(g.ends(), &g.tangent(), &matrix, VANISHING);
             assert!(
@@ -91,7 +91,7 @@ fn golden_interfaces_with_one_multiplier() {
     let whole = |found: &[f64], expected: &[f64]| difference(found, expected) / max_abs(expected.iter().copied());
     for case in golden("golden_normals.json").iter().filter(|case| case["lambda_N"].is_array()) {
         for (form, residual, tangent) in FORMS {
-            let g = open(case, |options| (options.form, options.friction) = (form, STICKSLIP_FRICTION_NONE));
+            let g = open(case, |options, method| (method.form, options.friction) = (form, STICKSLIP_FRICTION_NONE));
             // Closed nodes are told from open ones; stick is no state of theirs.
             let states: Vec<f64> = g.states().into_iter().map(f64::from).collect();
             assert_eq!(states, numbers(&case["one_state"]), "{}", name(case));

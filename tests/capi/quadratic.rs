@@ -80,7 +80,7 @@ fn golden_interfaces_of_quadratic_facets_by_stages() {
 fn golden_interfaces_of_quadratic_facets_by_a_handle() {
     for case in golden_part("golden_quadratic.json", "interfaces") {
         let space = if case["multiplier_space"] == "sub" { STICKSLIP_SPACE_SUB } else { STICKSLIP_SPACE_CORNER };
-        let g = Golden::with_options(&case, |options| options.multiplier_space = space);
+        let g = Golden::with_options(&case, |_, method| method.multiplier_space = space);
         let has: Vec<bool> = case["has_multiplier"].as_array().unwrap().iter().map(|h| h == true).collect();
         let states = g.states().into_iter().zip(numbers(&case["state"])).zip(&has);
         for (a, ((found, state), _)) in states.enumerate().filter(|(_, (_, has))| **has) {

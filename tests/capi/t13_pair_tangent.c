@@ -21,6 +21,7 @@ static void create(scene *s, double slide, double friction) {
   for (int k = 0; k < ALL; ++k) equations[k] = k;
   stickslip_surface one, two;
   stickslip_options options;
+  stickslip_method method;
   memset(&one, 0, sizeof one);
   one.struct_size = sizeof one;
   one.n_nodes = 4;
@@ -40,8 +41,9 @@ static void create(scene *s, double slide, double friction) {
   two.equations = equations + ONE;
   CHECK_OK(stickslip_options_init(&options, sizeof options));
   CHECK_OK(stickslip_options_paper(&options));
+  method = *options.method, options.method = &method;
   options.mu = friction;
-  options.augmentation = 20.0;
+  method.augmentation = 20.0;
   CHECK_OK(stickslip_interface_create(&one, &two, &options, &s->interface));
 
   memcpy(s->x, at_t_n, sizeof at_t_n);

@@ -154,7 +154,7 @@ static void assemble(const scene *s, const configuration *now, const configurati
     node->slip = frozen ? STICKSLIP_SLIP_INCREMENT : STICKSLIP_SLIP_OBJECTIVE; /* what the handle measures then */
     node->coverage_min = 1e-8 * areas[a];
     node->mu = node->coverage_previous > node->coverage_min ? s->options.mu : 0.0;
-    node->augmentation = s->options.augmentation / areas[a];
+    node->augmentation = s->method.augmentation / areas[a];
     scale[a] = node->augmentation * areas[a];
     memcpy(node->lambda, s->lambda + 3 * a, sizeof node->lambda);
     CHECK_OK(stickslip_node_normal(normals + 3 * a, node->normal));
@@ -202,9 +202,9 @@ static found check_slide(double by, int frozen) {
   int32_t state[N1];
   found result = {{0, 0, 0}, 1.0};
   scene_init(&s);
-  s.options.multiplier_basis = STICKSLIP_BASIS_DUAL;
-  s.options.weak_coverage = 0.0;
-  s.options.weights = frozen ? STICKSLIP_WEIGHTS_COMMITTED : STICKSLIP_WEIGHTS_CURRENT;
+  s.method.multiplier_basis = STICKSLIP_BASIS_DUAL;
+  s.method.weak_coverage = 0.0;
+  s.method.weights = frozen ? STICKSLIP_WEIGHTS_COMMITTED : STICKSLIP_WEIGHTS_CURRENT;
   scene_create(&s);
   CHECK_OK(stickslip_interface_commit(s.interface, s.x1, s.x2, s.lambda, NULL));
   memcpy(before.x1, s.x1, sizeof s.x1);

@@ -49,7 +49,9 @@ int main(void) {
 
   /* A modulus gives rhat = 0.1 E / sqrt(M). */
   stickslip_options by_modulus = s.options;
-  by_modulus.augmentation = 0.0;
+  stickslip_method without = s.method;
+  without.augmentation = 0.0;
+  by_modulus.method = &without;
   by_modulus.modulus = 200.0;
   stickslip_interface *other = NULL;
   CHECK_OK(stickslip_interface_create(&s.nonmortar, &s.mortar, &by_modulus, &other));

@@ -32,12 +32,12 @@ int main(void) {
   static int64_t offsets[UNKNOWNS + 1], columns[UNKNOWNS * UNKNOWNS];
 
   for (int32_t form = 0; form < 2; ++form) {
-    for (int32_t weights = 0; weights < 3; ++weights) {
+    for (int32_t weights = STICKSLIP_WEIGHTS_CURRENT; weights <= STICKSLIP_WEIGHTS_REFERENCE; ++weights) {
       for (int32_t slip = 0; slip < 3; ++slip) {
         scene_init(&s);
-        s.options.form = form;
-        s.options.weights = weights;
-        s.options.slip = slip;
+        s.method.form = form;
+        s.method.weights = weights;
+        s.method.slip = slip;
         scene_create(&s);
         dense(&s, 0);
         differences(&s);

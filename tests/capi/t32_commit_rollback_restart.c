@@ -8,9 +8,9 @@ static triplets t, u;
 int main(void) {
   static scene s, restarted;
   double r[UNKNOWNS], q[UNKNOWNS];
-  for (int32_t weights = 0; weights < 3; ++weights) {
+  for (int32_t weights = STICKSLIP_WEIGHTS_CURRENT; weights <= STICKSLIP_WEIGHTS_REFERENCE; ++weights) {
     scene_init(&s);
-    s.options.weights = weights;
+    s.method.weights = weights;
     scene_create(&s);
     CHECK_REFUSED(stickslip_interface_rollback(s.interface), STICKSLIP_NOTHING_TO_ROLL_BACK, "commit");
 
@@ -43,7 +43,7 @@ int main(void) {
     scene_slide(&s, 0.07);
     scene_residual(&s, r);
     scene_init(&restarted);
-    restarted.options.weights = weights;
+    restarted.method.weights = weights;
     scene_create(&restarted);
     CHECK_OK(stickslip_interface_history_import(restarted.interface, after.n_integers, after.integers, after.n_reals,
                                                 after.reals));

@@ -7,10 +7,10 @@ static triplets t;
 int main(void) {
   static scene s;
   for (int32_t form = 0; form < 2; ++form) {
-    for (int32_t weights = 0; weights < 3; ++weights) {
+    for (int32_t weights = STICKSLIP_WEIGHTS_CURRENT; weights <= STICKSLIP_WEIGHTS_REFERENCE; ++weights) {
       scene_init(&s);
-      s.options.form = form;
-      s.options.weights = weights;
+      s.method.form = form;
+      s.method.weights = weights;
       scene_create(&s);
       scene_commit(&s);
 

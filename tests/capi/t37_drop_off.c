@@ -10,9 +10,11 @@ int main(void) {
   const stickslip_surface one = {sizeof one, 4, 1, quad1, offsets, nodes, equations, equations + 24, NULL};
   const stickslip_surface two = {sizeof two, 4, 1, table, offsets, nodes, equations + 12, NULL, NULL};
   stickslip_options options;
+  stickslip_method method;
   CHECK_OK(stickslip_options_init(&options, sizeof options));
   CHECK_OK(stickslip_options_paper(&options));
-  options.augmentation = 10.0;
+  method = *options.method, options.method = &method;
+  method.augmentation = 10.0;
   options.mu = 0.1;
 
   const double moved[] = {0.1, 0.5, 0.9, 0.9999, 1.0 - 1e-6, 1.0 - 1e-9, 1.0 - 1e-15, 1.0, 1.0 + 1e-12, 7.0};

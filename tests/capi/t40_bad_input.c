@@ -35,10 +35,10 @@ static void set_up(const char *name, int32_t base) {
   memset(&b, 0, sizeof b);
   scene_init_base(&S, base);
   const int carried = strcmp(name, "interface_carriers") == 0;
-  if (is_condensed(name) || carried) S.options.multiplier_basis = STICKSLIP_BASIS_DUAL;
+  if (is_condensed(name) || carried) S.method.multiplier_basis = STICKSLIP_BASIS_DUAL;
   if (carried) scene_slide(&S, 0.9);
   if (strcmp(name, "interface_use_normals") == 0 || strcmp(name, "interface_turn_multipliers") == 0) {
-    S.options.normals = STICKSLIP_NORMALS_CURRENT;
+    S.method.normals = STICKSLIP_NORMALS_CURRENT;
   }
   every_init(&b.every);
   memset(&b.every.options, 0x5A, sizeof b.every - offsetof(every, options));
@@ -67,6 +67,7 @@ static void set_up(const char *name, int32_t base) {
   b.commits = 3;
   b.n_facet = 4;
   b.index_base = base;
+  b.which_normals = STICKSLIP_NORMALS_COMMITTED;
   b.angle = 0.5;
   for (int k = 0; k < 3; ++k) b.line_offsets[k] = 2 * k;
   for (int k = 0; k < 4; ++k) b.line_nodes[k] = base + (k + 1) / 2;
@@ -188,6 +189,7 @@ static void tell(void) {
   bad_struct("responses", "responses[2]", E.responses + 2);
   bad_struct("responses", "responses[3]", E.responses + 3);
   bad_struct("options", "options", &S.options);
+  bad_struct("method", "method", &S.method);
   bad_struct("surface", "nonmortar", &S.nonmortar);
   bad_struct("surface", "mortar", &S.mortar);
   bad_struct("states", "states", &H.states);

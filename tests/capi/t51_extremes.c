@@ -85,11 +85,13 @@ static void distances(void) {
   for (int k = 0; k < COUNT(far); ++k) {
     stickslip_interface *interface = NULL;
     stickslip_options options;
+    stickslip_method method;
     double coverage[4], lambda[12] = {0.0};
     stickslip_states out;
     CHECK_OK(stickslip_options_init(&options, sizeof options));
     CHECK_OK(stickslip_options_paper(&options));
-    options.augmentation = 1.0;
+    method = *options.method, options.method = &method;
+    method.augmentation = 1.0;
     options.search_distance = far[k];
     CHECK_OK(stickslip_interface_create(&one, &two, &options, &interface));
     memset(&out, 0, sizeof out);

@@ -40,7 +40,7 @@ int main(void) {
 
   /* What the numbers mean. */
   scene_init(&other);
-  other.options.slip = STICKSLIP_SLIP_INCREMENT;
+  other.method.slip = STICKSLIP_SLIP_INCREMENT;
   scene_create(&other);
   history_take(other.interface, &spoilt);
   check_mismatch("slip increment");
@@ -56,9 +56,9 @@ int main(void) {
   /* Others may go on with it: mu, augmentation, tolerances, the form. */
   scene_init(&other);
   other.options.mu = 0.1;
-  other.options.augmentation = 70.0;
-  other.options.coverage_min = 1e-3;
-  other.options.form = STICKSLIP_FORM_AUGMENTED;
+  other.method.augmentation = 70.0;
+  other.method.coverage_min = 1e-3;
+  other.method.form = STICKSLIP_FORM_AUGMENTED;
   scene_create(&other);
   CHECK_OK(stickslip_interface_history_import(other.interface, h.before.n_integers, h.before.integers, h.before.n_reals,
                                               h.before.reals));

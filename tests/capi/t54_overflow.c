@@ -72,7 +72,7 @@ int main(void) {
   for (int k = 0; k < COUNT(stiffness); ++k) {
     memset(&h, 0, sizeof h);
     scene_init(&h.s);
-    h.s.options.augmentation = stiffness[k];
+    h.s.method.augmentation = stiffness[k];
     if (stickslip_interface_create(&h.s.nonmortar, &h.s.mortar, &h.s.options, &h.s.interface) != STICKSLIP_OK) continue;
     double lambda[X1];
     memset(lambda, 0, sizeof lambda);

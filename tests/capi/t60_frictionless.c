@@ -26,7 +26,7 @@ static void create(scene *s, int32_t weights) {
   scene_init(s);
   s->options.friction = STICKSLIP_FRICTION_NONE;
   s->options.mu = 0.0;
-  s->options.weights = weights;
+  s->method.weights = weights;
   for (int a = 0; a < X1; ++a) s->multipliers[a] = a < N1 ? X1 + X2 + a : INT64_MIN; /* not to be read */
   scene_create(s);
 }
@@ -35,12 +35,12 @@ int main(void) {
   static scene one, three;
   guarded lambda, rows;
   double f1[X1], f2[X2], r[UNKNOWNS];
-  for (int32_t weights = 0; weights < 3; ++weights) {
+  for (int32_t weights = STICKSLIP_WEIGHTS_CURRENT; weights <= STICKSLIP_WEIGHTS_REFERENCE; ++weights) {
     create(&one, weights);
     scene_init(&three);
     three.options.mu = 0.0;
-    three.options.weights = weights;
-    three.options.no_shortcuts = STICKSLIP_SHORTCUT_FRICTIONLESS | STICKSLIP_SHORTCUT_RIGID |
+    three.method.weights = weights;
+    three.method.no_shortcuts = STICKSLIP_SHORTCUT_FRICTIONLESS | STICKSLIP_SHORTCUT_RIGID |
                                  STICKSLIP_SHORTCUT_APART | STICKSLIP_SHORTCUT_UNCOVERED;
     scene_create(&three);
 
@@ -91,8 +91,8 @@ int main(void) {
     /* History: shorter, undone and continued with the same bits; another interface's is refused by name. */
     history_take(three.interface, &whole);
     history_take(one.interface, &shorter);
-    CHECK(shorter.n_reals == whole.n_reals - 6 * N1 - (weights == 0 ? 32 * whole.integers[HISTORY_PAIRS] : 0));
-    CHECK(shorter.integers[HISTORY_PAIRS] == (weights == 0 ? 0 : whole.integers[HISTORY_PAIRS]));
+    CHECK(shorter.n_reals == whole.n_reals - 6 * N1 - (weights == STICKSLIP_WEIGHTS_CURRENT ? 32 * whole.integers[HISTORY_PAIRS] : 0));
+    CHECK(shorter.integers[HISTORY_PAIRS] == (weights == STICKSLIP_WEIGHTS_CURRENT ? 0 : whole.integers[HISTORY_PAIRS]));
     CHECK_OK(stickslip_interface_commit(one.interface, one.x1, one.x2, lambda.values, NULL));
     CHECK_OK(stickslip_interface_rollback(one.interface));
     history_take(one.interface, &now);

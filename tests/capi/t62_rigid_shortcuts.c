@@ -42,7 +42,7 @@ int main(void) {
     prescribe(&s);
     prescribe(&full);
     s.options.mortar_side = asked ? STICKSLIP_MORTAR_RIGID : STICKSLIP_MORTAR_DEFORMABLE;
-    full.options.no_shortcuts = ALL;
+    full.method.no_shortcuts = ALL;
     scene_create(&s);
     scene_create(&full);
     scene_residual(&s, r);
@@ -66,7 +66,7 @@ int main(void) {
   scene_init(&s);
   scene_init(&full);
   s.options.mu = full.options.mu = 0.0;
-  full.options.no_shortcuts = ALL;
+  full.method.no_shortcuts = ALL;
   scene_create(&s);
   scene_create(&full);
   CHECK(says(&s, "chosen: mu is 0 at every node") && says(&full, "Coulomb's law with mu 0"));
@@ -92,7 +92,7 @@ int main(void) {
   static history made_up, searched;
   scene_init(&s);
   scene_init(&full);
-  full.options.no_shortcuts = STICKSLIP_SHORTCUT_APART;
+  full.method.no_shortcuts = STICKSLIP_SHORTCUT_APART;
   double up[3] = {0.0, 0.0, 30.0};
   scene_frame(up);
   for (int i = 0; i < X1; ++i) {
@@ -131,7 +131,7 @@ int main(void) {
   /* A mortar side that looks away covers no node before the next commit: no law is asked about any. */
   scene_init(&s);
   scene_init(&full);
-  full.options.no_shortcuts = STICKSLIP_SHORTCUT_UNCOVERED;
+  full.method.no_shortcuts = STICKSLIP_SHORTCUT_UNCOVERED;
   for (scene *each = &s;; each = &full) {
     for (int f = 0; f < COUNT(each->nodes2); f += 4) {
       const int64_t second = each->nodes2[f + 1];
@@ -210,14 +210,14 @@ int main(void) {
   s.options.mortar_side = STICKSLIP_MORTAR_DEFORMABLE;
   const int32_t unknown[] = {16, -1, INT32_MIN, INT32_MAX};
   for (int n = 0; n < COUNT(unknown); ++n) {
-    s.options.no_shortcuts = unknown[n];
+    s.method.no_shortcuts = unknown[n];
     CHECK_REFUSED(stickslip_interface_create(&s.nonmortar, &s.mortar, &s.options, &s.interface),
                   STICKSLIP_INVALID_VALUE, "no_shortcuts");
   }
   CHECK(s.interface == NULL);
 
   /* The sentences: cut where they are longer, always ended; refused without room for the end. */
-  s.options.no_shortcuts = 0;
+  s.method.no_shortcuts = 0;
   scene_create(&s);
   char text[1000], cut[20];
   CHECK_OK(stickslip_interface_effects(s.interface, text, sizeof text));

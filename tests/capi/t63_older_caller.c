@@ -25,7 +25,7 @@ int main(void) {
   FILL(options);
   CHECK_OK(stickslip_options_init(&options.options, OPTIONS_1));
   check_behind(&options, OPTIONS_1);
-  CHECK(options.struct_size == OPTIONS_1 && options.options.coverage_min == 1e-8 && options.options.mu == 0.0);
+  CHECK(options.struct_size == OPTIONS_1 && !options.options.method && options.options.mu == 0.0);
   CHECK(options.options.search_distance == 0.0);
   /* Too short even for that caller. */
   older again = options;
@@ -35,7 +35,7 @@ int main(void) {
   /* An interface made with them answers as one of a caller of today; all shortcuts are taken. */
   scene_init(&s);
   options.options.mu = s.options.mu;
-  options.options.augmentation = s.options.augmentation;
+  options.options.method = &s.method;
   scene_create(&s);
   scene_residual(&s, r);
   scene_destroy(&s);

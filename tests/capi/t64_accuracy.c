@@ -28,13 +28,13 @@ int main(void) {
   counters.struct_size = sizeof counters;
 
   scene_init(&s);
-  CHECK(s.options.quadrature == STICKSLIP_QUADRATURE_DEGREE_5 && s.options.element_points == 0);
-  CHECK(s.options.integration == STICKSLIP_INTEGRATION_SEGMENTS && s.options.tangent == STICKSLIP_TANGENT_EXACT);
+  CHECK(s.method.quadrature == STICKSLIP_QUADRATURE_DEGREE_5 && s.method.element_points == 0);
+  CHECK(s.method.integration == STICKSLIP_INTEGRATION_SEGMENTS && s.method.tangent == STICKSLIP_TANGENT_EXACT);
   scene_create(&s);
   scene_residual(&s, exact);
   scene_tangent(&s, &t);
   const int64_t entries = t.n;
-  CHECK(says(&s, "7 points a triangle") && !says(&s, "asked for"));
+  CHECK(says(&s, "7 points a triangle."));
   scene_destroy(&s);
 
   /* Facets are parallelograms: rules from degree 4 on agree. All keep forces in balance. */
@@ -51,7 +51,7 @@ int main(void) {
   };
   for (int k = 0; k < COUNT(rules); ++k) {
     scene_init(&s);
-    s.options.quadrature = rules[k].rule;
+    s.method.quadrature = rules[k].rule;
     scene_create(&s);
     scene_residual(&s, r);
     CHECK(says(&s, rules[k].words));
@@ -70,8 +70,8 @@ int main(void) {
   for (int i = 0; i < COUNT(by_points); ++i) {
     for (int k = 0; k < 2; ++k) {
       scene_init(&s);
-      s.options.integration = by_points[i];
-      s.options.element_points = k ? 10 : 2;
+      s.method.integration = by_points[i];
+      s.method.element_points = k ? 10 : 2;
       scene_create(&s);
       scene_residual(&s, r);
       error[k] = difference(r, exact);
@@ -83,7 +83,7 @@ int main(void) {
     CHECK(error[0] > COARSE && error[1] < 0.5 * error[0] && error[1] > ROUNDING);
   }
   scene_init(&s);
-  s.options.integration = STICKSLIP_INTEGRATION_ELEMENTS;
+  s.method.integration = STICKSLIP_INTEGRATION_ELEMENTS;
   scene_create(&s);
   CHECK(says(&s, "4 x 4 points"));
   scene_destroy(&s);
@@ -91,7 +91,7 @@ int main(void) {
   /* Tangents: frozen weights have no blocks of forces by positions; the answer is the same. */
   for (int32_t tangent = STICKSLIP_TANGENT_FROZEN_WEIGHTS; tangent <= STICKSLIP_TANGENT_FROZEN_NORMALS; ++tangent) {
     scene_init(&s);
-    s.options.tangent = tangent;
+    s.method.tangent = tangent;
     scene_create(&s);
     scene_residual(&s, r);
     CHECK(memcmp(r, exact, sizeof r) == 0);

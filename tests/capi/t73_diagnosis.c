@@ -73,7 +73,7 @@ static void prescribed(void) {
   for (int a = 0; a < N1; ++a) s.equations1[3 * a] = -1;
   for (int c = 0; c < N2; ++c) s.equations2[3 * c] = -1;
   s.options.mu = 1e6;
-  s.options.weights = STICKSLIP_WEIGHTS_REFERENCE;
+  s.method.weights = STICKSLIP_WEIGHTS_REFERENCE;
   scene_create(&s);
   for (int a = 0; a < N1; ++a) state[a] = -1;
   stickslip_diagnosis d = diagnosis_of_all();

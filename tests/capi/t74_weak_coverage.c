@@ -9,9 +9,9 @@ static char entry[UNKNOWNS][UNKNOWNS];
 /* Committed where nodes hang over, then moved a little. */
 static void hang_over(double weak_coverage, int32_t form) {
   scene_init(&s);
-  CHECK(s.options.weak_coverage == 0.0);
-  s.options.weak_coverage = weak_coverage;
-  s.options.form = form;
+  CHECK(s.method.weak_coverage == 0.0);
+  s.method.weak_coverage = weak_coverage;
+  s.method.form = form;
   scene_create(&s);
   scene_slide(&s, 0.9);
   scene_commit(&s);
@@ -81,9 +81,9 @@ static void refusals(void) {
   const double wrong[] = {-1e-12, 1.0 + 1e-12, 2.0};
   for (int k = 0; k < COUNT(wrong); ++k) {
     scene_init(&s);
-    s.options.weak_coverage = wrong[k];
+    s.method.weak_coverage = wrong[k];
     CHECK_REFUSED(stickslip_interface_create(&s.nonmortar, &s.mortar, &s.options, &s.interface),
-                  STICKSLIP_INVALID_VALUE, "options.weak_coverage");
+                  STICKSLIP_INVALID_VALUE, "method.weak_coverage");
   }
   static double sums[STICKSLIP_SUMS_PER_NODE * N1], r[UNKNOWNS];
   hang_over(0.5, STICKSLIP_FORM_MULTIPLIER);

@@ -38,9 +38,9 @@ static void independence(void) {
     for (int form = 0; form < 2; ++form) {
       double r[N1];
       scene_init(&other);
-      other.options.augmentation = augmentations[k];
-      other.options.form = form;
-      other.options.row_scale = form ? STICKSLIP_ROW_SCALE_NONE : STICKSLIP_ROW_SCALE_FORCE;
+      other.method.augmentation = augmentations[k];
+      other.method.form = form;
+      other.method.row_scale = form ? STICKSLIP_ROW_SCALE_NONE : STICKSLIP_ROW_SCALE_FORCE;
       scene_create(&other);
       stickslip_equilibrium found = measured(&other, MODULUS, 0.0);
       CHECK(same(found, expected));

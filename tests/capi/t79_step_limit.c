@@ -114,7 +114,7 @@ static void sides(void) {
   const int32_t frozen[] = {STICKSLIP_WEIGHTS_COMMITTED, STICKSLIP_WEIGHTS_REFERENCE};
   for (int k = 0; k < COUNT(frozen); ++k) {
     scene_init(&s);
-    s.options.weights = frozen[k];
+    s.method.weights = frozen[k];
     scene_create(&s);
     closing();
     scene_destroy(&s);

@@ -59,9 +59,9 @@ static int32_t kept(environment e, int32_t (*call)(every *c), every *c, int refu
 static void run(environment e, int32_t form, int32_t friction, int32_t basis, every *c) {
   memset(c, 0, sizeof *c);
   scene_init(&c->h.s);
-  c->h.s.options.form = form;
+  c->h.s.method.form = form;
   c->h.s.options.friction = friction;
-  c->h.s.options.multiplier_basis = basis;
+  c->h.s.method.multiplier_basis = basis;
   if (!has_mu(friction)) c->h.s.options.mu = 0.0;
   c->h.s.options.shear_limit = friction == STICKSLIP_FRICTION_TRESCA ? 0.5 : 0.0;
   every_init(c);
@@ -83,10 +83,10 @@ static void run(environment e, int32_t form, int32_t friction, int32_t basis, ev
 int main(void) {
   static every expected, c;
   static const int roundings[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
-  static const int32_t scenes[][3] = {{STICKSLIP_FORM_MULTIPLIER, STICKSLIP_FRICTION_COULOMB},
-                                      {STICKSLIP_FORM_AUGMENTED, STICKSLIP_FRICTION_COULOMB},
-                                      {STICKSLIP_FORM_MULTIPLIER, STICKSLIP_FRICTION_TRESCA},
-                                      {STICKSLIP_FORM_MULTIPLIER, STICKSLIP_FRICTION_NONE},
+  static const int32_t scenes[][3] = {{STICKSLIP_FORM_MULTIPLIER, STICKSLIP_FRICTION_COULOMB, STICKSLIP_BASIS_STANDARD},
+                                      {STICKSLIP_FORM_AUGMENTED, STICKSLIP_FRICTION_COULOMB, STICKSLIP_BASIS_STANDARD},
+                                      {STICKSLIP_FORM_MULTIPLIER, STICKSLIP_FRICTION_TRESCA, STICKSLIP_BASIS_STANDARD},
+                                      {STICKSLIP_FORM_MULTIPLIER, STICKSLIP_FRICTION_NONE, STICKSLIP_BASIS_STANDARD},
                                       {STICKSLIP_FORM_MULTIPLIER, STICKSLIP_FRICTION_COULOMB, STICKSLIP_BASIS_DUAL}};
   for (int k = 0; k < COUNT(scenes); ++k) {
     run((environment){FE_TONEAREST, 0, 0, 0}, scenes[k][0], scenes[k][1], scenes[k][2], &expected);

@@ -73,6 +73,7 @@ static void check_handle(double ab[2][16], double ac[2][16]) {
   for (int k = 0; k < 3 * TWO; ++k) equations2[k] = 50 + k;
   stickslip_surface one, two;
   stickslip_options options;
+  stickslip_method method;
   stickslip_interface *interface = NULL;
   memset(&one, 0, sizeof one);
   one.struct_size = sizeof one;
@@ -83,9 +84,10 @@ static void check_handle(double ab[2][16], double ac[2][16]) {
   two.equations = equations2;
   CHECK_OK(stickslip_options_init(&options, sizeof options));
   CHECK_OK(stickslip_options_paper(&options));
+  method = *options.method, options.method = &method;
   options.modulus = 1.0;
   options.mu = 0.3;
-  options.no_shortcuts = STICKSLIP_SHORTCUT_APART;
+  method.no_shortcuts = STICKSLIP_SHORTCUT_APART;
   CHECK_OK(stickslip_interface_create(&one, &two, &options, &interface));
   history_take(interface, &h);
   const int64_t pairs = h.integers[HISTORY_PAIRS];

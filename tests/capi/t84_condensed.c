@@ -68,7 +68,7 @@ static void add_piece(int32_t piece, double *m) {
   int64_t counted;
   CHECK_OK(stickslip_interface_condensed_coo(s.interface, s.x1, s.x2, lambda, piece, 0, NULL, NULL, NULL, &counted));
   /* Forces at given multipliers do not move with the bodies where weights are frozen. */
-  const int moving = piece != STICKSLIP_CONDENSED_FORCES || s.options.weights == STICKSLIP_WEIGHTS_CURRENT;
+  const int moving = piece != STICKSLIP_CONDENSED_FORCES || s.method.weights == STICKSLIP_WEIGHTS_CURRENT;
   CHECK((counted > 0) == moving && counted <= MOST_ENTRIES);
   CHECK_OK(stickslip_interface_condensed_coo(s.interface, s.x1, s.x2, lambda, piece, counted, t.rows, t.columns, t.values,
                                              &t.n));
@@ -91,9 +91,9 @@ static void condense(double *k) {
 static void set_up(int carried, int32_t weights) {
   uint64_t seed = 84;
   scene_init(&s);
-  s.options.multiplier_basis = STICKSLIP_BASIS_DUAL;
-  s.options.weak_coverage = carried ? 0.5 : STICKSLIP_WEAK_COVERAGE_NONE;
-  s.options.weights = weights;
+  s.method.multiplier_basis = STICKSLIP_BASIS_DUAL;
+  s.method.weak_coverage = carried ? 0.5 : STICKSLIP_WEAK_COVERAGE_NONE;
+  s.method.weights = weights;
   scene_create(&s);
   if (carried) scene_slide(&s, 0.9);
   scene_commit(&s);

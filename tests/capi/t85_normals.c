@@ -60,8 +60,8 @@ static void integrate(configuration *c) {
 static void set_up(double by, int32_t normals, int32_t form) {
   scene_init(&s);
   s.options.mu = 0.4;
-  s.options.normals = normals;
-  s.options.form = form;
+  s.method.normals = normals;
+  s.method.form = form;
   bend(s.reference1, 0.05, 0.04, -0.035);
   bend(s.x1, 0.05, 0.04, -0.035);
   scene_create(&s);
@@ -110,7 +110,7 @@ static void respond(double sums[X1], double scale[N1], stickslip_node nodes[N1],
     node->struct_size = sizeof *node;
     node->coverage_min = 1e-8 * areas[a];
     node->mu = node->coverage_previous > node->coverage_min ? s.options.mu : 0.0;
-    node->augmentation = s.options.augmentation / areas[a];
+    node->augmentation = s.method.augmentation / areas[a];
     scale[a] = node->augmentation * areas[a];
     memcpy(node->lambda, s.lambda + 3 * a, sizeof node->lambda);
     CHECK_OK(stickslip_node_normal(sums + 3 * a, node->normal));

@@ -21,9 +21,11 @@ static int32_t create(int32_t space, int32_t basis, int64_t with_multipliers, st
   const stickslip_surface two = {.struct_size = sizeof two, .n_nodes = 4, .n_facets = 1, .coordinates = x2,
       .facet_offsets = offsets2, .facet_nodes = nodes2, .equations = equations + X1};
   stickslip_options options;
+  stickslip_method method;
   CHECK_OK(stickslip_options_init(&options, sizeof options));
   CHECK_OK(stickslip_options_paper(&options));
-  options.modulus = 1000.0, options.mu = 0.3, options.multiplier_space = space, options.multiplier_basis = basis;
+  method = *options.method, options.method = &method;
+  options.modulus = 1000.0, options.mu = 0.3, method.multiplier_space = space, method.multiplier_basis = basis;
   return stickslip_interface_create(&one, &two, &options, interface);
 }
 

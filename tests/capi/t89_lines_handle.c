@@ -21,11 +21,13 @@ static int32_t create(int32_t model, double thickness, int32_t basis, const doub
   const stickslip_surface two = {.struct_size = sizeof two, .n_nodes = N2, .n_facets = 1, .coordinates = x2,
       .facet_offsets = offsets2, .facet_nodes = nodes2, .equations = equations + X1};
   stickslip_options options;
+  stickslip_method method;
   CHECK_OK(stickslip_options_init(&options, sizeof options));
   CHECK_OK(stickslip_options_paper(&options));
+  method = *options.method, options.method = &method;
   CHECK(options.model == STICKSLIP_MODEL_SOLID && options.thickness == 0.0);
   options.modulus = 1000.0, options.mu = 0.3, options.model = model, options.thickness = thickness;
-  options.multiplier_basis = basis;
+  method.multiplier_basis = basis;
   return stickslip_interface_create(&one, &two, &options, interface);
 }
 

@@ -24,10 +24,12 @@ static int32_t create(int32_t model, int32_t basis, int32_t shape, double radius
   const stickslip_surface one = {.struct_size = sizeof one, .n_nodes = N1, .n_facets = 2, .coordinates = x1,
       .facet_offsets = offsets, .facet_nodes = nodes, .equations = equations, .multiplier_equations = equations + X1};
   stickslip_options options;
+  stickslip_method method;
   CHECK_OK(stickslip_options_init(&options, sizeof options));
   CHECK_OK(stickslip_options_paper(&options));
-  options.modulus = 1000.0, options.mu = 0.3, options.model = model, options.multiplier_basis = basis;
-  options.quadrature = STICKSLIP_QUADRATURE_DEGREE_10;
+  method = *options.method, options.method = &method;
+  options.modulus = 1000.0, options.mu = 0.3, options.model = model, method.multiplier_basis = basis;
+  method.quadrature = STICKSLIP_QUADRATURE_DEGREE_10;
   options.mortar_side = STICKSLIP_MORTAR_ANALYTIC, options.shape = shape, options.radius = radius;
   two.coordinates = shape == STICKSLIP_SHAPE_PLANE ? line : circle;
   return stickslip_interface_create(&one, &two, &options, interface);

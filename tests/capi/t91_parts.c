@@ -24,7 +24,7 @@ static void check_condensed(void) {
   static double m[N * N], m_sum[N * N];
   double r[N] = {0}, r_sum[N] = {0}, host[X1], lambda[X1];
   scene_init(&whole);
-  whole.options.multiplier_basis = STICKSLIP_BASIS_DUAL;
+  whole.method.multiplier_basis = STICKSLIP_BASIS_DUAL;
   scene_create(&whole);
   for (int i = 0; i < X1; ++i) host[i] = 0.05 * ((7 * i) % 11 - 5);
   CHECK_OK(stickslip_interface_condensed_multipliers(whole.interface, whole.x1, whole.x2, host, whole.lambda));
@@ -33,7 +33,7 @@ static void check_condensed(void) {
     scene_init(&parts[p]);
     for (int a = 0; a < N1; ++a) owned[p][a] = owner(a) == p ? STICKSLIP_NODE_OWN : STICKSLIP_NODE_ELSEWHERE;
     parts[p].nonmortar.owned = owned[p];
-    parts[p].options.multiplier_basis = STICKSLIP_BASIS_DUAL;
+    parts[p].method.multiplier_basis = STICKSLIP_BASIS_DUAL;
     scene_create(&parts[p]);
     CHECK_OK(stickslip_interface_condensed_multipliers(parts[p].interface, whole.x1, whole.x2, host, lambda));
     for (int i = 0; i < X1; ++i) CHECK(owner(i / 3) != p || lambda[i] == whole.lambda[i]);

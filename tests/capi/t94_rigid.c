@@ -103,11 +103,11 @@ static void make_analytic(int shape) {
 /* What the equations of a frame go with. */
 enum { AS_IT_IS, AUGMENTED, DUAL, CARRIED, TIED, NORMALS_OF_NOW, VARIANTS };
 static void choose(int variant) {
-  if (variant == AUGMENTED) s.options.form = STICKSLIP_FORM_AUGMENTED;
-  if (variant == DUAL || variant == NORMALS_OF_NOW) s.options.multiplier_basis = STICKSLIP_BASIS_DUAL;
-  if (variant == CARRIED) s.options.weak_coverage = 0.2;
+  if (variant == AUGMENTED) s.method.form = STICKSLIP_FORM_AUGMENTED;
+  if (variant == DUAL || variant == NORMALS_OF_NOW) s.method.multiplier_basis = STICKSLIP_BASIS_DUAL;
+  if (variant == CARRIED) s.method.weak_coverage = 0.2;
   if (variant == TIED) s.options.friction = STICKSLIP_FRICTION_TIED, s.options.mu = 0.0;
-  if (variant == NORMALS_OF_NOW) s.options.normals = STICKSLIP_NORMALS_CURRENT;
+  if (variant == NORMALS_OF_NOW) s.method.normals = STICKSLIP_NORMALS_CURRENT;
 }
 
 /* `drops`: the first body has no equation of the displacement along y and of the rotation about z. */
@@ -118,7 +118,7 @@ static void check_tangent(int64_t base, int n, const int *sides, int drops, int 
   stickslip_rigid_body bodies[2];
   stickslip_rigid_motion motions[2];
   scene_init_base(&s, base);
-  s.options.weights = weights;
+  s.method.weights = weights;
   make_analytic(shape);
   choose(variant);
   scene_create(&s);

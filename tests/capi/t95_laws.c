@@ -86,7 +86,7 @@ int main(void) {
     host h = {.thread = pthread_self(), .base = base};
     scene_init_base(&plain, base);
     scene_init_base(&own, base);
-    own.options.threads = 3;
+    own.method.threads = 3;
     scene_create(&plain);
     scene_create(&own);
     h.interface = own.interface;

@@ -11,10 +11,10 @@ static void create(scene *s, int32_t weights) {
   scene_init(s);
   s->options.friction = STICKSLIP_FRICTION_NONE;
   s->options.mu = 0.0;
-  s->options.weights = weights;
-  s->options.multiplier_basis = STICKSLIP_BASIS_DUAL;
-  s->options.decision = STICKSLIP_DECISION_POINTS;
-  s->options.augmentation = 0.0;
+  s->method.weights = weights;
+  s->method.multiplier_basis = STICKSLIP_BASIS_DUAL;
+  s->method.decision = STICKSLIP_DECISION_POINTS;
+  s->method.augmentation = 0.0;
   s->options.modulus = 10.0;
   for (int a = 0; a < X1; ++a) s->multipliers[a] = a < N1 ? X1 + X2 + a : INT64_MIN; /* not to be read */
 }
@@ -71,12 +71,12 @@ int main(void) {
   CHECK(cut > 0);
 
   create(&one, STICKSLIP_WEIGHTS_CURRENT);
-  one.options.normals = STICKSLIP_NORMALS_CURRENT;
+  one.method.normals = STICKSLIP_NORMALS_CURRENT;
   CHECK_REFUSED(stickslip_interface_create(&one.nonmortar, &one.mortar, &one.options, &one.interface), STICKSLIP_UNSUPPORTED,
                 "normals of now");
   create(&one, STICKSLIP_WEIGHTS_REFERENCE);
   one.options.modulus = 0.0;
-  one.options.augmentation = 15.0;
+  one.method.augmentation = 15.0;
   CHECK_REFUSED(stickslip_interface_create(&one.nonmortar, &one.mortar, &one.options, &one.interface),
                 STICKSLIP_MISSING_STIFFNESS, "E*");
   return 0;

@@ -143,6 +143,10 @@ contains
       status = stickslip_node_equilibrium(e%node, stiffness, rounding, at('gap'), at('traction'), at('slip'))
     case ('options_init')
       status = stickslip_options_init(o%options, struct_size)
+    case ('options_paper')
+      status = stickslip_options_paper(h%s%options)
+    case ('options_method')
+      status = stickslip_options_method(h%s%options, h%s%method)
     case ('last_error_padded')
       status = stickslip_last_error_padded(o%text, length)
     case ('surface_split_creases')
@@ -270,10 +274,10 @@ contains
     call element_init(e)
     call scene_init(h%s, int(base))
     if (name == 'interface_carriers' .or. index(name, 'interface_condensed_') == 1) &
-        h%s%options%multiplier_basis = STICKSLIP_BASIS_DUAL
+        h%s%method%multiplier_basis = STICKSLIP_BASIS_DUAL
     if (name == 'interface_carriers') call scene_slide(h%s, 0.9d0)
     if (name == 'interface_use_normals' .or. name == 'interface_turn_multipliers') &
-        h%s%options%normals = STICKSLIP_NORMALS_CURRENT
+        h%s%method%normals = STICKSLIP_NORMALS_CURRENT
     call scene_create(h%s)
     call scene_commit(h%s)
     call history_take(h%s%contact, h%before)

@@ -21,6 +21,7 @@ module scenes
     integer(c_int64_t) :: equations1(3, NA), equations2(3, NC), multipliers(3, NA)
     type(stickslip_surface) :: nonmortar, mortar
     type(stickslip_options) :: options
+    type(stickslip_method) :: method ! of the options; the paper's where a test does not ask for another
     type(stickslip_interface) :: contact
     real(c_double) :: x1(3, NA), x2(3, NC), lambda(3, NA)
   end type
@@ -87,6 +88,7 @@ contains
     type(scene), target, intent(inout) :: s
     integer, intent(in), optional :: base
     integer(c_int64_t) :: first, seed
+    type(stickslip_method), pointer :: paper
     integer :: a, c, i
     first = 1
     if (present(base)) first = base
@@ -124,9 +126,12 @@ contains
         facet_offsets=c_loc(s%offsets2), facet_nodes=c_loc(s%nodes2), equations=c_loc(s%equations2))
     CHECK_OK(stickslip_options_init(s%options, stickslip_options_size))
     CHECK_OK(stickslip_options_paper(s%options))
+    call c_f_pointer(s%options%method, paper)
+    s%method = paper
+    s%options%method = c_loc(s%method)
     s%options%index_base = int(first, c_int32_t)
     s%options%mu = 0.7d0
-    s%options%augmentation = 15
+    s%method%augmentation = 15
     CHECK(address_of(s%contact) == 0)
   end subroutine
 

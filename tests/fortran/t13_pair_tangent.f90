@@ -40,6 +40,8 @@ contains
     integer(c_int64_t), target :: offsets(3), nodes(4), equations(ALL_)
     type(stickslip_surface) :: nonmortar, mortar
     type(stickslip_options) :: options
+    type(stickslip_method), target :: method
+    type(stickslip_method), pointer :: paper
     integer :: i
     offsets = [0, 4, 8]
     nodes = [1, 2, 3, 4]
@@ -50,9 +52,12 @@ contains
         facet_nodes=c_loc(mortar_nodes), equations=c_loc(equations(ONE + 1)))
     CHECK_OK(stickslip_options_init(options, stickslip_options_size))
     CHECK_OK(stickslip_options_paper(options))
+    call c_f_pointer(options%method, paper)
+    method = paper
+    options%method = c_loc(method)
     options%index_base = 1
     options%mu = friction
-    options%augmentation = 20
+    method%augmentation = 20
     CHECK_OK(stickslip_interface_create(nonmortar, mortar, options, s%contact))
     s%x(:, 1:4) = at_t_n
     s%x(:, 5:10) = ground

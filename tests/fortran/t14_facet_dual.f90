@@ -149,7 +149,7 @@ contains
       nodes(a)%slip = merge(STICKSLIP_SLIP_INCREMENT, STICKSLIP_SLIP_OBJECTIVE, frozen)
       nodes(a)%coverage_min = 1d-8 * areas(a)
       nodes(a)%mu = merge(s%options%mu, 0d0, nodes(a)%coverage_previous > nodes(a)%coverage_min)
-      nodes(a)%augmentation = s%options%augmentation / areas(a)
+      nodes(a)%augmentation = s%method%augmentation / areas(a)
       nodes(a)%lambda = s%lambda(:, a)
       scale(a) = nodes(a)%augmentation * areas(a)
       CHECK_OK(stickslip_node_normal(normals(:, a), nodes(a)%normal))
@@ -261,9 +261,9 @@ contains
     real(c_double) :: least
     integer :: a, f, layout
     call scene_init(s)
-    s%options%multiplier_basis = STICKSLIP_BASIS_DUAL
-    s%options%weak_coverage = 0
-    s%options%weights = merge(STICKSLIP_WEIGHTS_COMMITTED, STICKSLIP_WEIGHTS_CURRENT, frozen)
+    s%method%multiplier_basis = STICKSLIP_BASIS_DUAL
+    s%method%weak_coverage = 0
+    s%method%weights = merge(STICKSLIP_WEIGHTS_COMMITTED, STICKSLIP_WEIGHTS_CURRENT, frozen)
     call scene_create(s)
     call scene_commit(s)
     call integrate(s%x1, s%x2, before)

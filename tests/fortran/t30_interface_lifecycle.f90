@@ -12,6 +12,7 @@ program t30_interface_lifecycle
                                ROUNDING_20 = 1d-12
   type(scene), target, save :: s
   type(stickslip_options) :: by_modulus
+  type(stickslip_method), target :: without
   type(stickslip_interface) :: other
   type(stickslip_counters) :: counters
   type(stickslip_states) :: out
@@ -62,7 +63,9 @@ program t30_interface_lifecycle
 
   ! A modulus gives rhat = 0.1 E / sqrt(M).
   by_modulus = s%options
-  by_modulus%augmentation = 0
+  without = s%method
+  without%augmentation = 0
+  by_modulus%method = c_loc(without)
   by_modulus%modulus = 200
   CHECK_OK(stickslip_interface_create(s%nonmortar, s%mortar, by_modulus, other))
   out = stickslip_states(augmentation=c_loc(augmentation))

@@ -21,12 +21,12 @@ program t31_interface_residual_tangent
   integer :: i, twice
 
   do form = 0, 1
-    do kind_of_weights = 0, 2
+    do kind_of_weights = STICKSLIP_WEIGHTS_CURRENT, STICKSLIP_WEIGHTS_REFERENCE
       do slip = 0, 2
         call scene_init(s)
-        s%options%form = form
-        s%options%weights = kind_of_weights
-        s%options%slip = slip
+        s%method%form = form
+        s%method%weights = kind_of_weights
+        s%method%slip = slip
         call scene_create(s)
         ! On the way it counts the entries with null arrays.
         call scene_dense(s, t, k)

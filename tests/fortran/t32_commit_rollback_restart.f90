@@ -12,9 +12,9 @@ program t32_commit_rollback_restart
   real(c_double) :: r(UNKNOWNS), q(UNKNOWNS)
   integer(c_int32_t) :: kind_of_weights
 
-  do kind_of_weights = 0, 2
+  do kind_of_weights = STICKSLIP_WEIGHTS_CURRENT, STICKSLIP_WEIGHTS_REFERENCE
     call scene_init(s)
-    s%options%weights = kind_of_weights
+    s%method%weights = kind_of_weights
     call scene_create(s)
     CHECK_REFUSED(stickslip_interface_rollback(s%contact), STICKSLIP_NOTHING_TO_ROLL_BACK, 'commit')
 
@@ -46,7 +46,7 @@ program t32_commit_rollback_restart
     call scene_slide(s, 0.07d0)
     call scene_residual(s, r)
     call scene_init(restarted)
-    restarted%options%weights = kind_of_weights
+    restarted%method%weights = kind_of_weights
     call scene_create(restarted)
     call history_put(restarted%contact, after)
     call history_take(restarted%contact, now)

@@ -16,10 +16,10 @@ program t36_pattern
   integer :: k
 
   do form = 0, 1
-    do kind_of_weights = 0, 2
+    do kind_of_weights = STICKSLIP_WEIGHTS_CURRENT, STICKSLIP_WEIGHTS_REFERENCE
       call scene_init(s)
-      s%options%form = form
-      s%options%weights = kind_of_weights
+      s%method%form = form
+      s%method%weights = kind_of_weights
       call scene_create(s)
       call scene_commit(s)
 

@@ -20,6 +20,8 @@ program t37_drop_off
   integer(c_int32_t), target :: state(4)
   type(stickslip_surface) :: nonmortar, mortar
   type(stickslip_options) :: options
+  type(stickslip_method), target :: method
+  type(stickslip_method), pointer :: paper
   type(stickslip_interface) :: contact
   type(stickslip_states) :: out
   integer :: i, k
@@ -31,8 +33,11 @@ program t37_drop_off
       facet_nodes=c_loc(nodes), equations=c_loc(equations(13)))
   CHECK_OK(stickslip_options_init(options, stickslip_options_size))
   CHECK_OK(stickslip_options_paper(options))
+  call c_f_pointer(options%method, paper)
+  method = paper
+  options%method = c_loc(method)
   options%index_base = 1
-  options%augmentation = 10
+  method%augmentation = 10
   options%mu = 0.1d0
 
   do k = 1, size(MOVED)

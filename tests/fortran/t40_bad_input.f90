@@ -30,6 +30,7 @@ contains
     call structs('answer', 'answer', c_loc(o%answer))
     call structs('response', 'response', c_loc(e%responses))
     call structs('options', 'options', c_loc(h%s%options))
+    call structs('method', 'method', c_loc(h%s%method))
     call structs('surface', 'nonmortar', c_loc(h%s%nonmortar))
     call structs('surface', 'mortar', c_loc(h%s%mortar))
     call structs('states', 'states', c_loc(h%states))

@@ -26,7 +26,7 @@ program t41_bad_input_sizes
 
   options%unknown = UNWRITTEN
   CHECK_OK(stickslip_options_init(options%known, OPTIONS_SIZE))
-  CHECK(options%known%struct_size == OPTIONS_SIZE .and. options%known%coverage_min == 1d-8 .and. options%known%mu == 0)
+  CHECK(options%known%struct_size == OPTIONS_SIZE .and. .not. c_associated(options%known%method) .and. options%known%mu == 0)
   CHECK(all(options%unknown == 0))
 
   call scene_init(s)

@@ -99,6 +99,8 @@ contains
     real(c_double), target :: coverage(4), lambda(3, 4)
     type(stickslip_surface) :: nonmortar, mortar
     type(stickslip_options) :: options
+    type(stickslip_method), target :: method
+    type(stickslip_method), pointer :: paper
     type(stickslip_interface) :: contact
     type(stickslip_states) :: out
     integer :: i, k
@@ -112,8 +114,11 @@ contains
     do k = 1, size(FAR)
       CHECK_OK(stickslip_options_init(options, stickslip_options_size))
       CHECK_OK(stickslip_options_paper(options))
+      call c_f_pointer(options%method, paper)
+      method = paper
+      options%method = c_loc(method)
       options%index_base = 1
-      options%augmentation = 1
+      method%augmentation = 1
       options%search_distance = FAR(k)
       CHECK_OK(stickslip_interface_create(nonmortar, mortar, options, contact))
       CHECK_OK(stickslip_interface_states(contact, quad1, table, lambda, c_null_ptr, out))

@@ -291,23 +291,23 @@ contains
     integer :: calls, n
     logical :: accepted, changed, again
     call scene_init(h%s)
-    h%s%options%form = random(2)
-    h%s%options%weights = random(5)
-    h%s%options%slip = random(3)
-    h%s%options%new_contact = random(2)
-    h%s%options%quadrature = random(2)
+    h%s%method%form = random(2)
+    h%s%method%weights = random(5)
+    h%s%method%slip = random(3)
+    h%s%method%new_contact = random(2)
+    h%s%method%quadrature = random(2)
     h%s%options%friction = random(int(STICKSLIP_FRICTION_TRESCA) + 1)
-    h%s%options%no_shortcuts = random(16)
-    h%s%options%weak_coverage = 0.5d0 * random(3)
-    h%s%options%multiplier_basis = random(3)
-    if (h%s%options%weights <= STICKSLIP_WEIGHTS_CURRENT) h%s%options%normals = random(3)
+    h%s%method%no_shortcuts = random(16)
+    h%s%method%weak_coverage = 0.5d0 * random(3)
+    h%s%method%multiplier_basis = random(3)
+    if (h%s%method%weights <= STICKSLIP_WEIGHTS_CURRENT) h%s%method%normals = random(3)
     if (all(h%s%options%friction /= [STICKSLIP_FRICTION_COULOMB, STICKSLIP_FRICTION_TRESCA])) h%s%options%mu = 0
     if (h%s%options%friction == STICKSLIP_FRICTION_TRESCA) h%s%options%shear_limit = 0.5d0
     if (once_in(2)) then
       call spoil_scalar(h%s%options%mu)
-      call spoil_scalar(h%s%options%augmentation)
+      call spoil_scalar(h%s%method%augmentation)
       call spoil_scalar(h%s%options%modulus)
-      call spoil_scalar(h%s%options%coverage_min)
+      call spoil_scalar(h%s%method%coverage_min)
       call spoil_scalar(h%s%options%search_distance)
     end if
     if (once_in(4)) call spoil(SIZE1, h%s%reference1)

@@ -40,7 +40,7 @@ program t53_foreign_history
 
   ! What the numbers mean.
   call scene_init(other)
-  other%options%slip = STICKSLIP_SLIP_INCREMENT
+  other%method%slip = STICKSLIP_SLIP_INCREMENT
   call scene_create(other)
   call history_take(other%contact, spoilt)
   MISMATCH('slip increment')
@@ -56,9 +56,9 @@ program t53_foreign_history
   ! Others may go on with it: mu, augmentation, tolerances, the form.
   call scene_init(other)
   other%options%mu = 0.1d0
-  other%options%augmentation = 70
-  other%options%coverage_min = 1d-3
-  other%options%form = STICKSLIP_FORM_AUGMENTED
+  other%method%augmentation = 70
+  other%method%coverage_min = 1d-3
+  other%method%form = STICKSLIP_FORM_AUGMENTED
   call scene_create(other)
   spoilt = h%before
   CHECK_OK(import_into(other%contact))

@@ -83,7 +83,7 @@ program t54_overflow
 
   do k = 1, size(STIFFNESS)
     call scene_init(h%s)
-    h%s%options%augmentation = STIFFNESS(k)
+    h%s%method%augmentation = STIFFNESS(k)
     if (stickslip_interface_create(h%s%nonmortar, h%s%mortar, h%s%options, h%s%contact) /= STICKSLIP_OK) cycle
     lambda = 0
     status = stickslip_interface_initial_multipliers(h%s%contact, lambda)

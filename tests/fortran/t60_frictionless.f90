@@ -16,7 +16,7 @@ program t60_frictionless
   real(c_double) :: lambda(3 * NA), r(UNKNOWNS), q(UNKNOWNS_1)
   integer(c_int32_t) :: kind_of_weights
 
-  do kind_of_weights = 0, 2
+  do kind_of_weights = STICKSLIP_WEIGHTS_CURRENT, STICKSLIP_WEIGHTS_REFERENCE
     call create_both()
     call check_start()
     call check_residual()
@@ -34,14 +34,14 @@ contains
     call scene_init(one)
     one%options%friction = STICKSLIP_FRICTION_NONE
     one%options%mu = 0
-    one%options%weights = kind_of_weights
+    one%method%weights = kind_of_weights
     ! One a node; the rest of the array is not to be read.
     one%multipliers = reshape([(merge(POSITIONS + int(i, c_int64_t), INT64_MIN, i <= NA), i = 1, SIZE1)], [3, NA])
     call scene_create(one)
     call scene_init(three)
     three%options%mu = 0
-    three%options%weights = kind_of_weights
-    three%options%no_shortcuts = STICKSLIP_SHORTCUT_FRICTIONLESS + STICKSLIP_SHORTCUT_RIGID + &
+    three%method%weights = kind_of_weights
+    three%method%no_shortcuts = STICKSLIP_SHORTCUT_FRICTIONLESS + STICKSLIP_SHORTCUT_RIGID + &
                                  STICKSLIP_SHORTCUT_APART + STICKSLIP_SHORTCUT_UNCOVERED
     call scene_create(three)
   end subroutine
@@ -132,8 +132,8 @@ contains
     integer(c_int32_t) :: status
     call history_take(three%contact, whole)
     call history_take(one%contact, shorter)
-    CHECK(shorter%n_reals == whole%n_reals - 6 * NA - merge(32 * whole%integers(HISTORY_PAIRS), 0_c_int64_t, kind_of_weights == 0))
-    CHECK(shorter%integers(HISTORY_PAIRS) == merge(0_c_int64_t, whole%integers(HISTORY_PAIRS), kind_of_weights == 0))
+    CHECK(shorter%n_reals == whole%n_reals - 6 * NA - merge(32 * whole%integers(HISTORY_PAIRS), 0_c_int64_t, kind_of_weights == STICKSLIP_WEIGHTS_CURRENT))
+    CHECK(shorter%integers(HISTORY_PAIRS) == merge(0_c_int64_t, whole%integers(HISTORY_PAIRS), kind_of_weights == STICKSLIP_WEIGHTS_CURRENT))
     CHECK_OK(stickslip_interface_commit(one%contact, one%x1, one%x2, lambda, c_null_ptr))
     CHECK_OK(stickslip_interface_rollback(one%contact))
     call history_take(one%contact, now)

@@ -80,7 +80,7 @@ contains
     s%equations2 = -1
     full%equations2 = -1
     s%options%mortar_side = merge(STICKSLIP_MORTAR_RIGID, STICKSLIP_MORTAR_DEFORMABLE, asked)
-    full%options%no_shortcuts = EVERY
+    full%method%no_shortcuts = EVERY
     call create_both()
     call compare_residuals()
     call scene_dense(s, t, a)
@@ -103,7 +103,7 @@ contains
     call scene_init(full)
     s%options%mu = 0
     full%options%mu = 0
-    full%options%no_shortcuts = EVERY
+    full%method%no_shortcuts = EVERY
     call create_both()
     CHECK(says(s, 'chosen: mu is 0 at every node'))
     CHECK(says(full, 'law with mu 0'))
@@ -135,7 +135,7 @@ contains
     call scene_frame(up)
     call scene_init(s)
     call scene_init(full)
-    full%options%no_shortcuts = STICKSLIP_SHORTCUT_APART
+    full%method%no_shortcuts = STICKSLIP_SHORTCUT_APART
     call lift(s, up)
     call lift(full, up)
     call create_both()
@@ -168,7 +168,7 @@ contains
     type(stickslip_counters) :: cheap, dear
     call scene_init(s)
     call scene_init(full)
-    full%options%no_shortcuts = STICKSLIP_SHORTCUT_UNCOVERED
+    full%method%no_shortcuts = STICKSLIP_SHORTCUT_UNCOVERED
     call turn_over(s)
     call turn_over(full)
     call create_both()
@@ -275,7 +275,7 @@ contains
     CHECK_REFUSED(status, STICKSLIP_INVALID_VALUE, 'mortar')
     s%options%mortar_side = STICKSLIP_MORTAR_DEFORMABLE
     do n = 1, size(UNKNOWN)
-      s%options%no_shortcuts = UNKNOWN(n)
+      s%method%no_shortcuts = UNKNOWN(n)
       status = stickslip_interface_create(s%nonmortar, s%mortar, s%options, s%contact)
       CHECK_REFUSED(status, STICKSLIP_INVALID_VALUE, 'no_shortcuts')
     end do
@@ -287,7 +287,7 @@ contains
     character(1000) :: text
     character(20) :: cut
     integer(c_int32_t) :: status
-    s%options%no_shortcuts = 0
+    s%method%no_shortcuts = 0
     call scene_create(s)
     text = ''
     status = stickslip_interface_effects(s%contact, text, len(text, c_int64_t))

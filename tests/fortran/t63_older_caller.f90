@@ -26,7 +26,7 @@ program t63_older_caller
   options = UNWRITTEN_INTEGER
   CHECK_OK(stickslip_options_init(older_options, OPTIONS_1))
   CHECK_UNTOUCHED(options(WORDS + 1:))
-  CHECK(older_options%struct_size == OPTIONS_1 .and. older_options%coverage_min == 1d-8 .and. older_options%mu == 0)
+  CHECK(older_options%struct_size == OPTIONS_1 .and. .not. c_associated(older_options%method) .and. older_options%mu == 0)
   CHECK(older_options%search_distance == 0)
   ! Too short even for that caller.
   before = options
@@ -36,7 +36,7 @@ program t63_older_caller
   ! An interface made with them answers as one of a caller of today; all shortcuts are taken.
   call scene_init(s, base=0)
   older_options%mu = s%options%mu
-  older_options%augmentation = s%options%augmentation
+  older_options%method = c_loc(s%method)
   call scene_create(s)
   call scene_residual(s, r)
   call scene_destroy(s)

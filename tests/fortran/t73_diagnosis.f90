@@ -75,7 +75,7 @@ contains
     s%equations1(1, :) = -1
     s%equations2(1, :) = -1
     s%options%mu = 1d6
-    s%options%weights = STICKSLIP_WEIGHTS_REFERENCE
+    s%method%weights = STICKSLIP_WEIGHTS_REFERENCE
     call scene_create(s)
     state = -1
     d = diagnosis_of_all()

@@ -26,9 +26,9 @@ contains
     real(c_double), intent(in) :: weak_coverage
     integer(c_int32_t), intent(in) :: form
     call scene_init(s)
-    CHECK(s%options%weak_coverage == 0)
-    s%options%weak_coverage = weak_coverage
-    s%options%form = form
+    CHECK(s%method%weak_coverage == 0)
+    s%method%weak_coverage = weak_coverage
+    s%method%form = form
     call scene_create(s)
     call scene_slide(s, 0.9d0)
     call scene_commit(s)
@@ -116,8 +116,8 @@ contains
     integer :: k
     do k = 1, 3
       call scene_init(s)
-      s%options%weak_coverage = WRONG(k)
-      CHECK_REFUSED(created(), STICKSLIP_INVALID_VALUE, 'options.weak_coverage')
+      s%method%weak_coverage = WRONG(k)
+      CHECK_REFUSED(created(), STICKSLIP_INVALID_VALUE, 'method.weak_coverage')
     end do
     call hang_over(0.5d0, STICKSLIP_FORM_MULTIPLIER)
     CHECK_OK(stickslip_interface_sums(s%contact, s%x1, s%x2, sums))

@@ -47,9 +47,9 @@ contains
     do k = 1, size(AUGMENTATIONS)
       do form = 0, 1
         call scene_init(s)
-        s%options%augmentation = AUGMENTATIONS(k)
-        s%options%form = form
-        s%options%row_scale = merge(STICKSLIP_ROW_SCALE_NONE, STICKSLIP_ROW_SCALE_FORCE, form == 1)
+        s%method%augmentation = AUGMENTATIONS(k)
+        s%method%form = form
+        s%method%row_scale = merge(STICKSLIP_ROW_SCALE_NONE, STICKSLIP_ROW_SCALE_FORCE, form == 1)
         call scene_create(s)
         CHECK(all(numbers(measured()) == expected))
         call scene_destroy(s)

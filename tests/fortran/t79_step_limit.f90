@@ -123,7 +123,7 @@ contains
     call scene_destroy(s)
     do k = STICKSLIP_WEIGHTS_COMMITTED, STICKSLIP_WEIGHTS_REFERENCE
       call scene_init(s)
-      s%options%weights = k
+      s%method%weights = k
       call check_all_gaps()
       call scene_destroy(s)
     end do

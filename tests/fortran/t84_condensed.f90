@@ -46,9 +46,9 @@ contains
     integer :: i, j
     seed = 84
     call scene_init(s)
-    s%options%multiplier_basis = STICKSLIP_BASIS_DUAL
-    s%options%weak_coverage = merge(0.5d0, STICKSLIP_WEAK_COVERAGE_NONE, carried)
-    s%options%weights = weights
+    s%method%multiplier_basis = STICKSLIP_BASIS_DUAL
+    s%method%weak_coverage = merge(0.5d0, STICKSLIP_WEAK_COVERAGE_NONE, carried)
+    s%method%weights = weights
     call scene_create(s)
     if (carried) call scene_slide(s, 0.9d0)
     call scene_commit(s)
@@ -95,7 +95,7 @@ contains
     status = stickslip_interface_condensed_coo(s%contact, s%x1, s%x2, s%lambda, which, 0_c_int64_t, none, none, none, counted)
     CHECK_OK(status)
     ! Forces at given multipliers do not move with the bodies where weights are frozen.
-    moving = which /= STICKSLIP_CONDENSED_FORCES .or. s%options%weights == STICKSLIP_WEIGHTS_CURRENT
+    moving = which /= STICKSLIP_CONDENSED_FORCES .or. s%method%weights == STICKSLIP_WEIGHTS_CURRENT
     CHECK((counted > 0) .eqv. moving)
     call triplets_allocate(t, counted)
     status = stickslip_interface_condensed_coo(s%contact, s%x1, s%x2, s%lambda, which, counted, c_loc(t%rows), &

@@ -83,8 +83,8 @@ contains
     integer(c_int32_t), intent(in) :: normals, form
     call scene_init(s)
     s%options%mu = 0.4d0
-    s%options%normals = normals
-    s%options%form = form
+    s%method%normals = normals
+    s%method%form = form
     call bend(s%reference1, 0.05d0, 0.04d0, -0.035d0)
     call bend(s%x1, 0.05d0, 0.04d0, -0.035d0)
     call scene_create(s)
@@ -141,7 +141,7 @@ contains
       nodes(a)%gap_committed = gaps(:, a, 3)
       nodes(a)%coverage_min = 1d-8 * areas(a)
       nodes(a)%mu = merge(s%options%mu, 0d0, nodes(a)%coverage_previous > nodes(a)%coverage_min)
-      nodes(a)%augmentation = s%options%augmentation / areas(a)
+      nodes(a)%augmentation = s%method%augmentation / areas(a)
       nodes(a)%lambda = s%lambda(:, a)
       scale(a) = nodes(a)%augmentation * areas(a)
       CHECK_OK(stickslip_node_normal(sums(:, a), nodes(a)%normal))

@@ -22,7 +22,7 @@ program t86_plan
   none = ieee_value(none, ieee_quiet_nan)
   do base = 0, 1
     do form = 0, 1
-      do weights = 0, 2
+      do weights = STICKSLIP_WEIGHTS_CURRENT, STICKSLIP_WEIGHTS_REFERENCE
         call check_tangent(base, form, weights, .false.)
         call check_tangent(base, form, weights, .true.)
       end do
@@ -85,8 +85,8 @@ contains
     integer(c_int32_t), intent(in) :: form, weights
     logical, intent(in) :: shared
     call scene_init(s, base)
-    s%options%form = form
-    s%options%weights = weights
+    s%method%form = form
+    s%method%weights = weights
     if (shared) then
       s%equations1(:, 5) = s%equations1(:, 1)
       s%equations2(:, 2) = s%equations1(:, 3)
@@ -216,7 +216,7 @@ contains
     integer(c_int32_t) :: status
     real(c_double) :: expected(UNKNOWNS, UNKNOWNS)
     call scene_init(s, base)
-    s%options%multiplier_basis = STICKSLIP_BASIS_DUAL
+    s%method%multiplier_basis = STICKSLIP_BASIS_DUAL
     call scene_create(s)
     call scene_slide(s, slide)
     call scene_commit(s)
@@ -296,7 +296,7 @@ contains
     integer :: k
     do k = 1, 2
       call scene_init(s)
-      s%options%threads = merge(2, 0, k == 2)
+      s%method%threads = merge(2, 0, k == 2)
       call scene_create(s)
       call scene_commit(s)
       call scene_slide(s, 0.05d0)

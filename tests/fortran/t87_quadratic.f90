@@ -33,6 +33,8 @@ contains
     integer, intent(in) :: with_multipliers
     type(stickslip_surface) :: one, two
     type(stickslip_options) :: options
+    type(stickslip_method), target :: method
+    type(stickslip_method), pointer :: paper
     equations = [(k, k = 1, X1 + X2 + X1)]
     equations(X1 + X2 + 3 * with_multipliers + 1:) = -1
     one = stickslip_surface(n_nodes=NODES, n_facets=1, coordinates=c_loc(place1), facet_offsets=c_loc(offsets1), &
@@ -41,11 +43,14 @@ contains
         facet_nodes=c_loc(nodes2), equations=c_loc(equations(X1 + 1)))
     CHECK_OK(stickslip_options_init(options, stickslip_options_size))
     CHECK_OK(stickslip_options_paper(options))
+    call c_f_pointer(options%method, paper)
+    method = paper
+    options%method = c_loc(method)
     options%index_base = 1
     options%modulus = 1000
     options%mu = 0.3d0
-    options%multiplier_space = space
-    options%multiplier_basis = basis
+    method%multiplier_space = space
+    method%multiplier_basis = basis
     created = stickslip_interface_create(one, two, options, contact)
   end function
 

@@ -36,6 +36,8 @@ contains
     real(c_double), target, intent(in) :: x(2, N1)
     type(stickslip_surface) :: one, two
     type(stickslip_options) :: options
+    type(stickslip_method), target :: method
+    type(stickslip_method), pointer :: paper
     integer :: k
     equations = [(k, k = 1, ALL)]
     one = stickslip_surface(n_nodes=N1, n_facets=2, coordinates=c_loc(x), facet_offsets=c_loc(offsets1), &
@@ -44,12 +46,15 @@ contains
         facet_nodes=c_loc(nodes2), equations=c_loc(equations(X1 + 1)))
     CHECK_OK(stickslip_options_init(options, stickslip_options_size))
     CHECK_OK(stickslip_options_paper(options))
+    call c_f_pointer(options%method, paper)
+    method = paper
+    options%method = c_loc(method)
     options%index_base = 1
     options%modulus = 1000
     options%mu = 0.3d0
     options%model = model
     options%thickness = thickness
-    options%multiplier_basis = basis
+    method%multiplier_basis = basis
     created = stickslip_interface_create(one, two, options, contact)
   end function
 

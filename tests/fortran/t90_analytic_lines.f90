@@ -32,6 +32,8 @@ contains
     real(c_double), intent(in) :: radius
     type(stickslip_surface) :: one, two
     type(stickslip_options) :: options
+    type(stickslip_method), target :: method
+    type(stickslip_method), pointer :: paper
     integer :: k
     equations = [(k, k = 1, ALL)]
     ! A point of the straight line or the circle's centre, the normal, one more.
@@ -42,11 +44,14 @@ contains
     two = stickslip_surface(n_nodes=points, n_facets=0, coordinates=c_loc(frame))
     CHECK_OK(stickslip_options_init(options, stickslip_options_size))
     CHECK_OK(stickslip_options_paper(options))
+    call c_f_pointer(options%method, paper)
+    method = paper
+    options%method = c_loc(method)
     options%index_base = 1
     options%modulus = 1000
     options%mu = 0.3d0
     options%model = STICKSLIP_MODEL_PLANE
-    options%multiplier_basis = basis
+    method%multiplier_basis = basis
     options%mortar_side = STICKSLIP_MORTAR_ANALYTIC
     options%shape = shape
     options%radius = radius

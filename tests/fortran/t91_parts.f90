@@ -63,7 +63,7 @@ contains
     real(c_double) :: host(3 * NA), lambda(3, NA), rows(3 * NA), gains(POSITIONS - 3 * NA), right(POSITIONS), total(POSITIONS)
     integer :: i
     call scene_init(whole)
-    whole%options%multiplier_basis = STICKSLIP_BASIS_DUAL
+    whole%method%multiplier_basis = STICKSLIP_BASIS_DUAL
     call scene_create(whole)
     host = [(0.05d0 * (mod(7 * i, 11) - 5), i = 0, 3 * NA - 1)]
     CHECK_OK(stickslip_interface_condensed_multipliers(whole%contact, whole%x1, whole%x2, host, whole%lambda))
@@ -73,7 +73,7 @@ contains
     do p = 1, 2
       call scene_init(parts(p))
       parts(p)%nonmortar%owned = c_loc(owned(1, p))
-      parts(p)%options%multiplier_basis = STICKSLIP_BASIS_DUAL
+      parts(p)%method%multiplier_basis = STICKSLIP_BASIS_DUAL
       call scene_create(parts(p))
       associate (part => parts(p))
         CHECK_OK(stickslip_interface_condensed_multipliers(part%contact, whole%x1, whole%x2, host, lambda))

@@ -301,7 +301,7 @@ fn a_history_of_nodes_is_refused_by_name() {
         let error = to.import_history(&integers, &reals).unwrap_err();
         assert!(error.kind == Kind::HistoryMismatch && error.message.contains(words), "{error}");
     };
-    refused(&mut points, &mut nodes, "one with points that decide (options.decision), the interface one with the dual");
+    refused(&mut points, &mut nodes, "one with points that decide (method.decision), the interface one with the dual");
     refused(&mut nodes, &mut points, "one with the dual multiplier basis, the interface one with points that decide");
 }
 

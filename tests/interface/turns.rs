@@ -296,7 +296,7 @@ fn what_asks_for_no_normals_may_turn() {
     assert_eq!(error.kind, Kind::TurnedTooFar);
     assert!(error.message.contains("since the first configuration"), "{}", error.message);
     // No step is short enough for that, which the refusal had as its remedy.
-    let remedy = "take STICKSLIP_WEIGHTS_CURRENT, or a larger options.turn_max";
+    let remedy = "take STICKSLIP_WEIGHTS_CURRENT, or a larger method.turn_max";
     assert!(error.message.contains(remedy) && !error.message.contains("take smaller steps"), "{}", error.message);
     let error = commit(base, 0.0, &[quarter]).unwrap_err();
     assert!(error.message.ends_with("take smaller steps"), "{}", error.message);

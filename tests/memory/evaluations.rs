@@ -38,15 +38,19 @@ fn flat(x: &[Vec3]) -> Vec<f64> {
 
 impl Host {
     /// n x n facets over m x m, or over a plane.
-    fn new(n: usize, m: usize, set: impl Fn(&mut stickslip_options)) -> Host {
+    fn new(n: usize, m: usize, set: impl Fn(&mut stickslip_options, &mut stickslip_method)) -> Host {
         // SAFETY: numbers and null pointers.
         let mut options: stickslip_options = unsafe { zeroed() };
         let size = size_of::<stickslip_options>() as u64;
         // SAFETY: a struct of this size.
         assert_eq!(unsafe { stickslip_options_init(&mut options, size) }, 0);
+        // SAFETY: as before.
         assert_eq!(unsafe { stickslip_options_paper(&mut options) }, 0);
         (options.modulus, options.mu) = (1000.0, 0.3);
-        set(&mut options);
+        // SAFETY: the library's.
+        let mut method = unsafe { *options.method };
+        set(&mut options, &mut method);
+        options.method = &raw const method;
         let (analytic, normal) =
             (options.mortar_side == STICKSLIP_MORTAR_ANALYTIC, options.friction == STICKSLIP_FRICTION_NONE);
         let one = grid(n, n, [0.0, 0.0], [1.0, 1.0], -1e-3, false, Cells::Quads);
@@ -94,7 +98,7 @@ impl Host {
             sums: vec![0.0; STICKSLIP_SUMS_PER_NODE as usize * n1],
             states: [0; 4].map(|_| vec![0.0; 3 * n1]),
             analytic,
-            takes_sums: options.multiplier_basis == STICKSLIP_BASIS_STANDARD,
+            takes_sums: method.multiplier_basis == STICKSLIP_BASIS_STANDARD,
         }
     }
 
@@ -183,7 +187,7 @@ impl Drop for Host {
 }
 
 /// What an interface is asked for, in all combinations that there are.
-fn each_kind(mut test: impl FnMut(&str, &dyn Fn(&mut stickslip_options))) {
+fn each_kind(mut test: impl FnMut(&str, &dyn Fn(&mut stickslip_options, &mut stickslip_method))) {
     for friction in [STICKSLIP_FRICTION_COULOMB, STICKSLIP_FRICTION_NONE, STICKSLIP_FRICTION_TIED] {
         for basis in [STICKSLIP_BASIS_STANDARD, STICKSLIP_BASIS_DUAL] {
             for normals in [STICKSLIP_NORMALS_COMMITTED, STICKSLIP_NORMALS_CURRENT] {
@@ -192,9 +196,9 @@ fn each_kind(mut test: impl FnMut(&str, &dyn Fn(&mut stickslip_options))) {
                         continue; // normals of now go with weights of now
                     }
                     let what = format!("friction {friction}, basis {basis}, normals {normals}, mortar side {side}");
-                    test(&what, &|options| {
-                        (options.friction, options.multiplier_basis) = (friction, basis);
-                        (options.normals, options.mortar_side) = (normals, side);
+                    test(&what, &|options, method| {
+                        (options.friction, method.multiplier_basis) = (friction, basis);
+                        (method.normals, options.mortar_side) = (normals, side);
                         if friction != STICKSLIP_FRICTION_COULOMB {
                             options.mu = 0.0;
                         }
@@ -221,9 +225,9 @@ fn evaluations_take_no_memory_after_the_first_two() {
 fn values_of_a_plan_take_no_memory_after_the_first_two() {
     each_kind(|what, set| {
         for form in [STICKSLIP_FORM_MULTIPLIER, STICKSLIP_FORM_AUGMENTED] {
-            let mut host = Host::new(8, 9, |options| {
-                set(options);
-                options.form = form;
+            let mut host = Host::new(8, 9, |options, method| {
+                set(options, method);
+                method.form = form;
             });
             let mut values = host.plan();
             for round in 0..8 {
@@ -256,9 +260,9 @@ fn evaluations_between_commits_take_no_memory() {
 #[test]
 fn a_commit_takes_a_number_of_vectors_that_does_not_grow_with_the_surfaces() {
     each_kind(|what, set| {
-        let mut host = Host::new(16, 18, |options| {
-            set(options);
-            options.weak_coverage = STICKSLIP_WEAK_COVERAGE_NONE;
+        let mut host = Host::new(16, 18, |options, method| {
+            set(options, method);
+            method.weak_coverage = STICKSLIP_WEAK_COVERAGE_NONE;
         });
         for round in 0..2 * HISTORIES {
             host.move_to(round);
@@ -273,7 +277,7 @@ fn a_commit_takes_a_number_of_vectors_that_does_not_grow_with_the_surfaces() {
 fn a_handle_takes_so_many_bytes_a_facet() {
     let n = 40;
     let before = LIVE.get();
-    let mut host = Host::new(n, 45, |_| {});
+    let mut host = Host::new(n, 45, |_, _| {});
     let of_host = {
         let vectors = host.start.iter().chain(&host.x).chain(&host.forces).chain(&host.states);
         8 * vectors.chain([&host.lambda, &host.sums]).map(Vec::capacity).sum::<usize>()

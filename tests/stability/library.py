@@ -88,44 +88,22 @@ Response = struct(
     ("drow_dnow", c_double * 9),
     ("drow_dprevious", c_double * 9),
 )
-Options = struct(
-    "Options",
-    *(
-        (name, c_int32)
-        for name in (
-            "form",
-            "slip",
-            "weights",
-            "friction",
-            "mortar_side",
-            "basis",
-            "quadrature",
-            "row_scale",
-            "new_contact",
-            "index_base",
-        )
-    ),
-    ("mu", c_double),
-    ("augmentation", c_double),
-    ("modulus", c_double),
-    ("coverage_min", c_double),
-    ("search_distance", c_double),
-    ("no_shortcuts", c_int32),
-    ("shape", c_int32),
-    ("radius", c_double),
-    ("integration", c_int32),
-    ("tangent", c_int32),
+INTEGERS = ("form", "slip", "weights", "basis", "normals", "multiplier_space", "decision", "quadrature", "row_scale",
+            "new_contact", "integration", "tangent", "no_shortcuts", "threads")
+Method = struct(
+    "Method",
+    *((name, c_int32) for name in INTEGERS),
     ("element_points", c_int64),
+    ("augmentation", c_double),
+    ("coverage_min", c_double),
     ("weak_coverage", c_double),
     ("turn_max", c_double),
-    ("shear_limit", c_double),
-    ("normals", c_int32),
-    ("threads", c_int32),
-    ("multiplier_space", c_int32),
-    ("model", c_int32),
-    ("thickness", c_double),
-    ("decision", c_int32),
-    ("reserved", c_int32),
+)
+Options = struct(
+    "Options",
+    ("method", ctypes.POINTER(Method)),
+    *((name, c_int32) for name in ("friction", "mortar_side", "shape", "model", "small_displacements", "index_base")),
+    *((name, c_double) for name in ("mu", "shear_limit", "thickness", "radius", "modulus", "search_distance")),
 )
 Surface = struct(
     "Surface",
@@ -160,7 +138,7 @@ SUMS = 11  # numbers a node of stickslip_interface_sums
 
 # The variable of the environment that says which multipliers the matrix is about, and the library's numbers of them.
 BASIS = "STABILITY_BASIS"
-BASES = {"standard": 0, "dual": 1}
+BASES = {"standard": 1, "dual": 2}  # STICKSLIP_BASIS_...
 
 
 def basis_in_question():
@@ -170,7 +148,8 @@ def basis_in_question():
 
 # The same of the normals. Where weights are frozen, normals are committed whatever it says.
 NORMALS = "STABILITY_NORMALS"
-NORMALS_OF = {"committed": 0, "current": 1}
+NORMALS_OF = {"committed": 1, "current": 2}  # STICKSLIP_NORMALS_...
+CURRENT = 1  # STICKSLIP_WEIGHTS_CURRENT
 
 
 def normals_in_question():
@@ -245,12 +224,14 @@ class Interface:
         if options.get("multiplier_space", 0) == 0:
             multipliers.reshape(-1, components)[mid_nodes(len(x1), facets1, CORNERS if dimension == 3 else ENDS)] = -1
         sides[0].multiplier_equations = self.keep(multipliers, np.int64)
-        chosen = Options()
+        chosen, method = Options(), Method()
         library.call("options_init", byref(chosen), c_uint64(chosen.struct_size))
-        chosen.basis = BASES[basis_in_question()]
-        chosen.normals = NORMALS_OF[normals_in_question()] if not options.get("weights") else NORMALS_OF["committed"]
+        chosen.method = ctypes.pointer(method)
+        method.basis, method.normals = BASES[basis_in_question()], NORMALS_OF[normals_in_question()]
+        if options.get("weights", CURRENT) != CURRENT:
+            method.normals = NORMALS_OF["committed"]
         for name, value in options.items():
-            setattr(chosen, name, value)
+            setattr(chosen if hasattr(chosen, name) else method, name, value)
         self.handle = c_void_p()
         library.call("interface_create", byref(sides[0]), byref(sides[1]), byref(chosen), byref(self.handle))
 

@@ -120,7 +120,8 @@ typedef struct {
   ContactStates  states;     /* likewise */
   PetscSF        sf;         /* from the local vectors of all ranks to `displacements` */
   Offsets        offsets;
-  stickslip_options options;
+  stickslip_options options; /* its method is the next member */
+  stickslip_method  method;
   stickslip_law  law;        /* in place of Coulomb's, if it is of another kind */
   PetscInt       dimension;  /* numbers a node of every vector here: 3, in the plane 2 */
   PetscInt       components; /* multipliers a node: 1, along the normal, without friction; else `dimension` */

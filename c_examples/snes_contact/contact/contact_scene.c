@@ -39,7 +39,7 @@ static void describe_analytic(Scene *scene, Interface *interface)
 /* With multipliers at corners all components of a node that is no corner of a face go, in the middle of edges and faces. */
 static PetscErrorCode remove_middles(const Mesh *mesh, Interface *interface)
 {
-  const PetscInt           space    = interface->options.multiplier_space;
+  const PetscInt           space    = interface->method.multiplier_space;
   const Surface           *surface  = interface->surface[0];
   PetscInt                *corner, *marks;
   PetscFunctionBegin;
@@ -105,7 +105,7 @@ static PetscErrorCode settle_nodes(Scene *scene, Contact *contact, Interface *in
 
   PetscCall(find_young(contact, interface));
   PetscCall(decision_settle(contact, interface));
-  if (interface->options.augmentation == 0 && interface->options.modulus == 0)
+  if (interface->method.augmentation == 0 && interface->options.modulus == 0)
     interface->options.modulus = interface->young;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -125,6 +125,7 @@ static void read_effects(Scene *scene, Interface *interface)
 {
   static const char *const sides[]   = {"deformable", "rigid", NULL};
   stickslip_options       *options   = &interface->options;
+  stickslip_method        *method    = &interface->method;
   PetscInt                 side      = STICKSLIP_MORTAR_DEFORMABLE;
   PetscBool                shortcuts = PETSC_TRUE;
 
@@ -132,10 +133,10 @@ static void read_effects(Scene *scene, Interface *interface)
   scene_bool(scene, interface->name, "shortcuts", &shortcuts);
   options->mortar_side = (int32_t)side;
   if (!shortcuts)
-    options->no_shortcuts = STICKSLIP_SHORTCUT_FRICTIONLESS | STICKSLIP_SHORTCUT_RIGID | STICKSLIP_SHORTCUT_APART |
+    method->no_shortcuts = STICKSLIP_SHORTCUT_FRICTIONLESS | STICKSLIP_SHORTCUT_RIGID | STICKSLIP_SHORTCUT_APART |
                             STICKSLIP_SHORTCUT_UNCOVERED;
   else if (scene_has(scene, interface->name, "mortar_side") && side == STICKSLIP_MORTAR_DEFORMABLE)
-    options->no_shortcuts = STICKSLIP_SHORTCUT_RIGID;
+    method->no_shortcuts = STICKSLIP_SHORTCUT_RIGID;
 }
 
 /* Default of `slide_max`: what a mesh shows. A block drawn over a plate by 3 facets a step of committed weights was pressed 7 per
@@ -148,13 +149,24 @@ static const PetscReal TURN_TOLD = 0.03;
 static const PetscReal LAG_MAX = 0.1;
 
 /* `method`: the library's own, or the paper's. */
-static PetscErrorCode read_kind(Scene *scene, stickslip_options *options)
+static PetscBool read_paper(Scene *scene)
 {
   static const char *const methods[] = {"default", "paper", NULL};
   PetscInt                 method    = 0;
-  PetscFunctionBegin;
   scene_choice(scene, NULL, "method", methods, &method);
-  if (method == 1) PetscCallStickslip(stickslip_options_paper(options));
+  return (PetscBool)(method == 1);
+}
+
+/* All that the scene does not say is the library's choice, or the paper's. */
+static PetscErrorCode begin_options(PetscBool paper, Interface *interface)
+{
+  stickslip_options *options = &interface->options;
+  PetscFunctionBegin;
+  PetscCallStickslip(stickslip_options_init(options, sizeof(*options)));
+  if (paper) PetscCallStickslip(stickslip_options_paper(options));
+  interface->method             = paper ? *options->method : (stickslip_method){0};
+  interface->method.struct_size = sizeof(interface->method);
+  options->method               = &interface->method;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -170,11 +182,12 @@ static void read_method(Scene *scene, Interface *interface)
   static const char *const bases[]        = {"auto", "standard", "dual", NULL};
   static const char *const normals[]      = {"auto", "committed", "current", NULL};
   stickslip_options       *options        = &interface->options;
+  stickslip_method        *method         = &interface->method;
   const char              *name           = interface->name;
-  PetscInt  basis = options->multiplier_basis, normal = options->normals, weight = options->weights,
+  PetscInt  basis = method->multiplier_basis, normal = method->normals, weight = method->weights,
            slip = STICKSLIP_SLIP_OBJECTIVE, form = STICKSLIP_FORM_MULTIPLIER,
            new_contact = STICKSLIP_NEW_CONTACT_FRICTIONLESS, row_scale = STICKSLIP_ROW_SCALE_FORCE, space = STICKSLIP_SPACE_CORNER;
-  PetscReal augmentation = 0, modulus = 0, distance = 0, weak_coverage = options->weak_coverage, turn_max = 0, coverage_min = options->coverage_min;
+  PetscReal augmentation = 0, modulus = 0, distance = 0, weak_coverage = method->weak_coverage, turn_max = 0, coverage_min = method->coverage_min;
 
   char      word[NAME_LENGTH] = "";
 
@@ -216,21 +229,21 @@ static void read_method(Scene *scene, Interface *interface)
     scene_fail(scene, name, "turn_max", "it is an angle in radians: from 0 to pi.");
   if (!(interface->slide.most > 0)) scene_fail(scene, name, "slide_max", "it must be positive.");
   if (!(interface->lag.most > 0)) scene_fail(scene, name, "lag_max", "it must be positive.");
-  options->multiplier_basis = (int32_t)basis;
-  options->normals          = (int32_t)normal;
-  options->turn_max         = turn_max;
+  method->multiplier_basis = (int32_t)basis;
+  method->normals          = (int32_t)normal;
+  method->turn_max         = turn_max;
   if (turn_max > 0) interface->turn.most = turn_max;
-  options->weights         = (int32_t)weight;
-  options->slip            = (int32_t)slip;
-  options->form            = (int32_t)form;
-  options->new_contact     = (int32_t)new_contact;
-  options->row_scale       = (int32_t)row_scale;
-  options->multiplier_space = (int32_t)space;
-  options->augmentation    = augmentation;
+  method->weights         = (int32_t)weight;
+  method->slip            = (int32_t)slip;
+  method->form            = (int32_t)form;
+  method->new_contact     = (int32_t)new_contact;
+  method->row_scale       = (int32_t)row_scale;
+  method->multiplier_space = (int32_t)space;
+  method->augmentation    = augmentation;
   options->modulus         = modulus;
   options->search_distance = distance;
-  options->weak_coverage   = weak_coverage;
-  options->coverage_min    = coverage_min;
+  method->weak_coverage   = weak_coverage;
+  method->coverage_min    = coverage_min;
 }
 
 /* What a rule is called in a scene, by STICKSLIP_QUADRATURE_... */
@@ -241,8 +254,8 @@ static void read_accuracy(Scene *scene, Interface *interface)
 {
   static const char *const integrations[] = {"segments", "elements", "hybrid", NULL};
   static const char *const tangents[]     = {"exact", "frozen_weights", "frozen_normals", NULL};
-  stickslip_options       *options        = &interface->options;
-  const char              *name           = interface->name;
+  stickslip_method        *method       = &interface->method;
+  const char              *name         = interface->name;
   PetscInt rule = STICKSLIP_QUADRATURE_DEGREE_5, integration = STICKSLIP_INTEGRATION_SEGMENTS,
            tangent = STICKSLIP_TANGENT_EXACT, points = 0;
 
@@ -254,10 +267,10 @@ static void read_accuracy(Scene *scene, Interface *interface)
     scene_fail(scene, name, "points", "it needs 'integration: elements' or 'hybrid'.");
   if (scene_has(scene, name, "points") && (points < 2 || points > 10))
     scene_fail(scene, name, "points", "2 to 10 are possible.");
-  options->quadrature     = (int32_t)rule;
-  options->integration    = (int32_t)integration;
-  options->tangent        = (int32_t)tangent;
-  options->element_points = points;
+  method->quadrature     = (int32_t)rule;
+  method->integration    = (int32_t)integration;
+  method->tangent        = (int32_t)tangent;
+  method->element_points = points;
 }
 
 /* `unknowns`: whether the multipliers are among them. */
@@ -281,7 +294,7 @@ static PetscErrorCode read_nodes(Scene *scene, Contact *contact, Interface *inte
   PetscCall(settle_nodes(scene, contact, interface, symmetry));
   scene_real(scene, interface->name, "augmentation_scale", &scale);
   if (scale <= 0) scene_fail(scene, interface->name, "augmentation_scale", "it must be positive.");
-  interface->options.augmentation *= scale;
+  interface->method.augmentation *= scale;
   interface->options.modulus *= scale;
   PetscCall(offsets_place(scene, interface));
   PetscCall(contact_adjust(scene, contact->mesh, interface));
@@ -311,7 +324,8 @@ static PetscErrorCode refuse_twice(Scene *scene, const Contact *contact, PetscIn
 
 PetscErrorCode contact_read(Scene *scene, Contact *contact)
 {
-  char **names;
+  const PetscBool paper = read_paper(scene);
+  char          **names;
 
   PetscFunctionBegin;
   read_unknowns(scene, contact);
@@ -320,15 +334,14 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact)
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     Interface *interface = &contact->interfaces[i];
     PetscCall(PetscSNPrintf(interface->name, NAME_LENGTH, "%s", names[i]));
-    PetscCallStickslip(stickslip_options_init(&interface->options, sizeof(interface->options)));
+    PetscCall(begin_options(paper, interface));
     read_model(&contact->mesh->space, interface);
-    PetscCall(read_kind(scene, &interface->options));
     law_read(scene, &contact->mesh->space, interface);
     mesh_rotate_vector(contact->mesh, interface->law.direction);
     read_effects(scene, interface);
     decision_read(scene, interface);
     read_method(scene, interface);
-    PetscCallStickslip(stickslip_options_settle(&interface->options));
+    PetscCallStickslip(stickslip_options_method(&interface->options, &interface->method));
     read_accuracy(scene, interface);
     PetscCall(offsets_read(scene, contact->physics, interface));
   }

@@ -91,11 +91,12 @@ static PetscErrorCode longest_edge(const Interface *interface, PetscReal *longes
 static PetscErrorCode look_at_surfaces(const Mesh *mesh, Interface *interface)
 {
   const stickslip_options *options = &interface->options;
+  const stickslip_method  *method  = &interface->method;
   PetscFunctionBegin;
   PetscCall(longest_edge(interface, &interface->longest_edge));
   PetscCall(has_middles(mesh, interface, &interface->middles));
   interface->uncut  = (PetscBool)(interface->dimension == 2 || interface->surface[1]->analytic || interface->middles);
-  interface->frozen = (PetscBool)(options->weights == STICKSLIP_WEIGHTS_REFERENCE || options->friction == STICKSLIP_FRICTION_TIED);
+  interface->frozen = (PetscBool)(method->weights == STICKSLIP_WEIGHTS_REFERENCE || options->friction == STICKSLIP_FRICTION_TIED);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

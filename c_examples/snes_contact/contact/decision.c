@@ -8,7 +8,7 @@ void decision_read(Scene *scene, Interface *interface)
   static const char *const decisions[] = {"nodes", "points", NULL};
   PetscInt                 decision    = STICKSLIP_DECISION_NODES;
   scene_choice(scene, interface->name, "decision", decisions, &decision);
-  interface->options.decision = (int32_t)decision;
+  interface->method.decision = (int32_t)decision;
   if (decision == STICKSLIP_DECISION_POINTS && scene_has(scene, interface->name, "augmentation_scale"))
     scene_fail(scene, interface->name, "augmentation_scale",
                "where points decide the answer depends on the modulus; to try another r give it as `augmentation`.");
@@ -16,7 +16,7 @@ void decision_read(Scene *scene, Interface *interface)
 
 PetscBool decision_is_points(const Interface *interface)
 {
-  return (PetscBool)(interface->options.decision == STICKSLIP_DECISION_POINTS);
+  return (PetscBool)(interface->method.decision == STICKSLIP_DECISION_POINTS);
 }
 
 /* E / (1 - nu^2), of plane stress E: what a half-space, or a half-plane, of the material resists with, by its small strains. */

@@ -157,7 +157,7 @@ static Interval admitted(const Interface *interface, const View *view, PetscInt 
   moved = along(normal, low, view->of[SINCE_T_N].high);
   here  = along(normal, own->low, own->high);
   t     = solve(slope, plane.low - distance + moved.low - here.high, plane.high + distance + moved.high - here.low);
-  if (interface->options.normals != STICKSLIP_NORMALS_CURRENT) return t;
+  if (interface->method.normals != STICKSLIP_NORMALS_CURRENT) return t;
   plane = along(e, own->low, own->high);
   return hull(t, (Interval){plane.low - plane.high - distance, plane.high - plane.low + distance});
 }

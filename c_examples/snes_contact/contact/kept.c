@@ -90,7 +90,7 @@ static PetscErrorCode tied_tell(const Contact *contact, Interface *interface)
 
 static PetscBool keeps(const Interface *interface)
 {
-  return (PetscBool)(interface->options.weights == STICKSLIP_WEIGHTS_PERSISTENT && !is_tied(interface));
+  return (PetscBool)(interface->method.weights == STICKSLIP_WEIGHTS_PERSISTENT && !is_tied(interface));
 }
 
 PetscErrorCode kept_tell(const Contact *contact, Interface *interface)

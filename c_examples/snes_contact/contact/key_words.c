@@ -11,11 +11,11 @@ static const struct {
                  {"STICKSLIP_FRICTION_", "law"},        {"STICKSLIP_INTEGRATION_", "integration"},
                  {"STICKSLIP_NORMALS_", "normals"},     {"STICKSLIP_SLIP_", "slip"},         {"STICKSLIP_SPACE_", "multiplier_space"},
                  {"STICKSLIP_TANGENT_", "tangent"},     {"STICKSLIP_WEIGHTS_", "weights"}};
-/* Members of stickslip_options whose keys have another name. */
+/* Members of stickslip_options and stickslip_method whose keys have another name. */
 static const struct {
   const char *name, *key;
 } MEMBERS[] = {{"element_points", "points"}, {"friction", "law"}, {"multiplier_basis", "basis"}};
-static const char OPTIONS[] = "options.", NO_WEAK_COVERAGE[] = "STICKSLIP_WEAK_COVERAGE_NONE";
+static const char OPTIONS[] = "options.", METHOD[] = "method.", NO_WEAK_COVERAGE[] = "STICKSLIP_WEAK_COVERAGE_NONE";
 
 static PetscBool begins(const char *text, const char *with)
 {
@@ -51,8 +51,8 @@ const char *key_word(const char *from, char to[], size_t length)
     write_constant(CONSTANTS[k].key, from + strlen(CONSTANTS[k].name), end, to, length);
     return end;
   }
-  if (begins(from, OPTIONS)) {
-    const char *name = from + strlen(OPTIONS);
+  if (begins(from, OPTIONS) || begins(from, METHOD)) {
+    const char *name = strchr(from, '.') + 1;
     int         n;
     end = end_of_name(name);
     n   = (int)(end - name);

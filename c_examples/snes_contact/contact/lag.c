@@ -18,9 +18,10 @@ static const PetscReal SHORTEST = 0.1, LONGEST = 2;
 static PetscBool may_be_corrected(const Contact *contact, const Interface *interface)
 {
   const stickslip_options *options = &interface->options;
+  const stickslip_method  *method  = &interface->method;
   if (decision_is_points(interface) && options->friction != STICKSLIP_FRICTION_NONE) return PETSC_FALSE;
   return (PetscBool)(interface->lag_corrects && !contact->physics->dynamics && options->friction != STICKSLIP_FRICTION_TIED &&
-                     options->normals == STICKSLIP_NORMALS_COMMITTED && options->weights != STICKSLIP_WEIGHTS_REFERENCE);
+                     method->normals == STICKSLIP_NORMALS_COMMITTED && method->weights != STICKSLIP_WEIGHTS_REFERENCE);
 }
 
 /* At a converged state that the interfaces have been judged at. */

@@ -61,8 +61,8 @@ PetscErrorCode newly_check(const Contact *contact, char why[], size_t length)
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     const Interface *interface = &contact->interfaces[i];
     PetscReal        sums[2] = {0, 0};
-    if (!newly_rubs(&interface->options) || interface->options.weights != STICKSLIP_WEIGHTS_CURRENT ||
-        interface->options.new_contact != STICKSLIP_NEW_CONTACT_FRICTIONLESS)
+    if (!newly_rubs(&interface->options) || interface->method.weights != STICKSLIP_WEIGHTS_CURRENT ||
+        interface->method.new_contact != STICKSLIP_NEW_CONTACT_FRICTIONLESS)
       continue;
     PetscCall(add_forces(&interface->part, sums));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));

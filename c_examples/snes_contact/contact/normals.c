@@ -4,7 +4,7 @@
 
 static PetscBool follows(const Interface *interface)
 {
-  return (PetscBool)(interface->options.normals == STICKSLIP_NORMALS_CURRENT);
+  return (PetscBool)(interface->method.normals == STICKSLIP_NORMALS_CURRENT);
 }
 
 PetscBool normals_follow(const Contact *contact)

@@ -11,16 +11,16 @@ enum { RINGS = 3 + PARTS_DEPTH };
 /* The same where nodes carry others: all of them are integrated. */
 enum { RINGS_OF_CARRIERS = 12 };
 
-static PetscBool carries(const stickslip_options *options)
+static PetscBool carries(const stickslip_method *method)
 {
-  if (options->weak_coverage > 0) return PETSC_TRUE;
-  return (PetscBool)(options->weak_coverage == 0 && options->multiplier_basis == STICKSLIP_BASIS_DUAL);
+  if (method->weak_coverage > 0) return PETSC_TRUE;
+  return (PetscBool)(method->weak_coverage == 0 && method->multiplier_basis == STICKSLIP_BASIS_DUAL);
 }
 
 /* The part's nodes, and what comes with them: by interface->owner. */
 static PetscErrorCode deal(const Mesh *mesh, Interface *interface)
 {
-  const PetscInt rings = (carries(&interface->options) ? RINGS_OF_CARRIERS : RINGS) + interface->further_rings;
+  const PetscInt rings = (carries(&interface->method) ? RINGS_OF_CARRIERS : RINGS) + interface->further_rings;
   PetscInt       n = 0, *received = NULL, *counts;
   Side           side;
   PetscFunctionBegin;

@@ -104,7 +104,7 @@ static PetscErrorCode revive(Contact *contact, Interface *interface, int32_t *re
   if (!*refused && interface->offsets.curve.n) *refused = offsets_set(interface, part->handle, contact->physics->t);
   if (!*refused && contact->scaled && !decision_is_points(interface))
     *refused = stickslip_interface_set_augmentation(part->handle, part->augmentation);
-  if (!*refused && contact->settles && interface->options.normals == STICKSLIP_NORMALS_CURRENT)
+  if (!*refused && contact->settles && interface->method.normals == STICKSLIP_NORMALS_CURRENT)
     *refused = stickslip_interface_use_normals(part->handle, STICKSLIP_NORMALS_COMMITTED);
   if (!*refused && contact->sticks) *refused = sticking_set(contact, interface, part->handle);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -87,9 +87,9 @@ PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t
       PetscCall(measure_turn(interface, contact->mesh));
       continue;
     }
-    if (interface->options.weights == STICKSLIP_WEIGHTS_CURRENT) continue;
+    if (interface->method.weights == STICKSLIP_WEIGHTS_CURRENT) continue;
     PetscCall(measure_slide(interface, contact->mesh));
-    if (interface->options.weights == STICKSLIP_WEIGHTS_REFERENCE) {
+    if (interface->method.weights == STICKSLIP_WEIGHTS_REFERENCE) {
       PetscCall(measure_turn(interface, contact->mesh));
       continue;
     }
@@ -128,7 +128,7 @@ PetscErrorCode slide_accept(Contact *contact)
                      "Mesh the interference or the gap, or take", "turn_max"));
       continue;
     }
-    if (interface->options.weights != STICKSLIP_WEIGHTS_REFERENCE) continue;
+    if (interface->method.weights != STICKSLIP_WEIGHTS_REFERENCE) continue;
     PetscCall(tell(contact->physics->t, &interface->slide,
                    "Weights of the reference know no sliding: contact is sought, and forces act on the mortar side, where the surfaces "
                    "were at first.",

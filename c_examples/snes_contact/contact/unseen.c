@@ -25,9 +25,9 @@ static const PetscReal LAG_MARGIN = 1.3;
 
 static const char *remedy(const Interface *interface)
 {
-  if (interface->options.weights == STICKSLIP_WEIGHTS_PERSISTENT)
+  if (interface->method.weights == STICKSLIP_WEIGHTS_PERSISTENT)
     return "With `weights: persistent` what overlaps at the start of a step counts as closed: take `weights: current`";
-  if (interface->options.weights != STICKSLIP_WEIGHTS_CURRENT)
+  if (interface->method.weights != STICKSLIP_WEIGHTS_CURRENT)
     return "Frozen weights do not know where the surfaces are: take `weights: current`, or shorter steps";
   if (decision_is_points(interface) || interface->surface[1]->analytic) return "Facets that are coarser than the contact do not feel it: take finer ones";
   return "Facets that are coarser than the contact do not feel it: make the side with the finer facets `nonmortar`, mesh both finer, or take "
@@ -78,7 +78,7 @@ PetscErrorCode unseen_check(Contact *contact, PetscBool last, PetscBool *late, P
   PetscFunctionBegin;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     Interface      *interface = &contact->interfaces[i];
-    const PetscBool told      = (PetscBool)(contact->physics->dynamics || interface->options.weights == STICKSLIP_WEIGHTS_REFERENCE);
+    const PetscBool told      = (PetscBool)(contact->physics->dynamics || interface->method.weights == STICKSLIP_WEIGHTS_REFERENCE);
     PetscReal       lags;
     PetscCall(measure(contact, interface));
     if (interface->apart.amount > OVERLAP_MOST && !told)

@@ -16,9 +16,9 @@ static const PetscReal WHOLE = 0.99;
 /* What nobody can be carried with (docs/plug_in.md). */
 static PetscBool goes_with(const Interface *interface)
 {
-  const stickslip_options *options = &interface->options;
-  if (decision_is_points(interface) || interface->surface[1]->analytic || options->friction == STICKSLIP_FRICTION_TIED) return PETSC_FALSE;
-  return (PetscBool)!(interface->offsets.any && options->normals == STICKSLIP_NORMALS_CURRENT);
+  const stickslip_method *method = &interface->method;
+  if (decision_is_points(interface) || interface->surface[1]->analytic || interface->options.friction == STICKSLIP_FRICTION_TIED) return PETSC_FALSE;
+  return (PetscBool)!(interface->offsets.any && method->normals == STICKSLIP_NORMALS_CURRENT);
 }
 
 /* Is any node covered in part at the start? Where the surfaces are apart nothing is sought to tell. */
@@ -45,15 +45,15 @@ static PetscErrorCode hangs_over(const ContactPart *part, PetscBool *any)
 
 PetscErrorCode weak_choose(Interface *interface, PetscBool created, PetscBool *chosen)
 {
-  stickslip_options *options = &interface->options;
+  stickslip_method *method = &interface->method;
   const PetscBool    plane   = (PetscBool)(interface->dimension == 2);
   PetscFunctionBegin;
   *chosen = PETSC_FALSE;
-  if ((options->weak_coverage != 0 && options->weak_coverage != NONE) || options->multiplier_basis == STICKSLIP_BASIS_DUAL || !goes_with(interface))
+  if ((method->weak_coverage != 0 && method->weak_coverage != NONE) || method->multiplier_basis == STICKSLIP_BASIS_DUAL || !goes_with(interface))
     PetscFunctionReturn(PETSC_SUCCESS);
   *chosen = plane;
   if (created && !plane) PetscCall(hangs_over(&interface->part, chosen)); /* in space carrying costs: parts need many rings of facets */
-  if (*chosen) options->weak_coverage = WEAK_COVERAGE;
-  else if (newly_rubs(options) && options->weights == STICKSLIP_WEIGHTS_CURRENT) options->weak_coverage = NONE;
+  if (*chosen) method->weak_coverage = WEAK_COVERAGE;
+  else if (newly_rubs(&interface->options) && method->weights == STICKSLIP_WEIGHTS_CURRENT) method->weak_coverage = NONE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -42,7 +42,7 @@ static PetscErrorCode advise_on_coverage(const Interface *interface, const Conta
                           "%d nodes were not covered before this step, %d are hardly covered: %stake as nonmortar the side "
                           "that stays covered, the smaller one (swap `nonmortar` and `mortar`)",
                           (int)d->n_new, (int)d->n_weak,
-                          interface->options.weak_coverage < 0.5 ?
+                          interface->method.weak_coverage < 0.5 ?
                             "let their neighbours carry them (`weak_coverage: 0.5`), or " :
                             ""));
   cJSON_AddStringToObject(json, "advice", advice);

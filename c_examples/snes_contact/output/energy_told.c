@@ -31,7 +31,7 @@ static PetscBool any_at_points(const Contact *contact)
 static PetscBool any_found_anew(const Contact *contact)
 {
   for (PetscInt i = 0; i < contact->n_interfaces; i++)
-    if (contact->interfaces[i].options.weights == STICKSLIP_WEIGHTS_CURRENT) return PETSC_TRUE;
+    if (contact->interfaces[i].method.weights == STICKSLIP_WEIGHTS_CURRENT) return PETSC_TRUE;
   return PETSC_FALSE;
 }
 

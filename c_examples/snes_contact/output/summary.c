@@ -24,9 +24,9 @@ static void add_time(cJSON *json, const char *name, PetscReal t)
 static const char *form_name(const Output *output)
 {
   Contact *contact = output->contact;
-  int32_t  form    = contact->n_interfaces ? contact->interfaces[0].options.form : STICKSLIP_FORM_MULTIPLIER;
+  int32_t  form    = contact->n_interfaces ? contact->interfaces[0].method.form : STICKSLIP_FORM_MULTIPLIER;
   for (PetscInt i = 1; i < contact->n_interfaces; i++) {
-    if (contact->interfaces[i].options.form != form) return "mixed";
+    if (contact->interfaces[i].method.form != form) return "mixed";
   }
   return form == STICKSLIP_FORM_AUGMENTED ? "augmented" : "multiplier";
 }
@@ -47,12 +47,12 @@ static PetscErrorCode add_decisions(const Output *output, cJSON *root)
     json = cJSON_AddObjectToObject(all, interface->name);
     cJSON_AddStringToObject(json, "decision", "points");
     cJSON_AddStringToObject(json, "basis", "dual");
-    cJSON_AddStringToObject(json, "weights", WEIGHTS[interface->options.weights]);
+    cJSON_AddStringToObject(json, "weights", WEIGHTS[interface->method.weights]);
     cJSON_AddNumberToObject(json, "modulus", interface->options.modulus);
     cJSON_AddStringToObject(json, "modulus_from", interface->modulus_from);
     if (!output->quiet)
       PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: decided at points, basis dual, weights %s, modulus %g (from %s)\n", interface->name,
-                            WEIGHTS[interface->options.weights], interface->options.modulus, interface->modulus_from));
+                            WEIGHTS[interface->method.weights], interface->options.modulus, interface->modulus_from));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -129,8 +129,8 @@ static PetscErrorCode interface_results(Output *output, Interface *interface, co
   cJSON_AddNumberToObject(json, "lag", interface->lag.amount);
   cJSON_AddNumberToObject(json, "lag_force", interface->lag_force);
   if (decision_is_points(interface)) PetscCall(add_closed_area(interface, json));
-  if (interface->options.weights != STICKSLIP_WEIGHTS_CURRENT) cJSON_AddNumberToObject(json, "slid", interface->slide.amount);
-  if (interface->options.weights == STICKSLIP_WEIGHTS_REFERENCE) cJSON_AddNumberToObject(json, "turned", interface->turn.amount);
+  if (interface->method.weights != STICKSLIP_WEIGHTS_CURRENT) cJSON_AddNumberToObject(json, "slid", interface->slide.amount);
+  if (interface->method.weights == STICKSLIP_WEIGHTS_REFERENCE) cJSON_AddNumberToObject(json, "turned", interface->turn.amount);
   if (interface->tied_gap > 0) cJSON_AddNumberToObject(json, "tied_gap", interface->tied_gap);
   if (write) PetscCall(csv_write(output, interface, states, temperatures, step));
   snprintf(progress, length, "  %s %d gap %d stick %d slip", interface->name, (int)counts[STICKSLIP_STATE_GAP],

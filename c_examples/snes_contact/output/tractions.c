@@ -92,7 +92,7 @@ static PetscErrorCode map_corners(const Interface *interface, const PetscInt cor
 PetscErrorCode nodal_tractions(const Mesh *mesh, const Interface *interface, const ContactStates *states,
                                double tractions[])
 {
-  const PetscBool everywhere = (PetscBool)(interface->options.multiplier_space == STICKSLIP_SPACE_SUB);
+  const PetscBool everywhere = (PetscBool)(interface->method.multiplier_space == STICKSLIP_SPACE_SUB);
   double         *values, *theirs;
   PetscInt       *corners, n = 0, at = 0;
   PetscSF         sf = NULL;

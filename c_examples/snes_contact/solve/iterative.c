@@ -158,7 +158,7 @@ void iterative_check(Scene *scene, const Solve *solve)
   PetscBool      held    = PETSC_TRUE;
   if (solve->linear.kind != SOLVER_ITERATIVE || contact->condensed) return;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    if (contact->interfaces[i].options.form == STICKSLIP_FORM_AUGMENTED) return;
+    if (contact->interfaces[i].method.form == STICKSLIP_FORM_AUGMENTED) return;
   }
   for (PetscInt b = 0; b < solve->mesh->n_bodies; b++)
     held = (PetscBool)(held && !held_free(solve, b));

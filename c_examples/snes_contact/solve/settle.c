@@ -304,7 +304,7 @@ static PetscBool allowed(const Solve *solve)
   for (PetscInt i = 0; i < solve->contact->n_interfaces; i++) {
     const Interface *interface = &solve->contact->interfaces[i];
     const PetscBool  tied      = (PetscBool)(interface->options.friction == STICKSLIP_FRICTION_TIED);
-    if (!tied && interface->options.weights != STICKSLIP_WEIGHTS_CURRENT) return PETSC_FALSE;
+    if (!tied && interface->method.weights != STICKSLIP_WEIGHTS_CURRENT) return PETSC_FALSE;
     if (interface->offsets.any && interface->offsets.curve.n) return PETSC_FALSE;
   }
   return (PetscBool)(solve->closing.possible && !solve->physics->dynamics);

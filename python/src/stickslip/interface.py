@@ -33,13 +33,14 @@ class Interface(Heats, Inspection, Laws):
     nonmortar, mortar : Surface
         The non-mortar side has the multipliers.
     **options
-        Members of ``stickslip_options`` by name, for example ``mu=0.2, modulus=210e3, basis="dual", model="plane"``.
+        Members of ``stickslip_options`` and of ``stickslip_method`` by name, for example
+        ``mu=0.2, modulus=210e3, model="plane"``; ``method="paper"`` takes the paper's element.
         A choice is the end of the header's constant in small letters. What is left out has the library's default.
     """
 
     def __init__(self, nonmortar: Surface, mortar: Surface, **options):
         self._handle = ffi.NULL
-        made = _options.make(options)
+        made, _method = _options.make(options)
         first, kept_first = nonmortar._struct()
         second, kept_second = mortar._struct()
         self.dimension = 3 if made.model == value_of("model", "MODEL", "solid") else 2

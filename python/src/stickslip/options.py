@@ -8,31 +8,49 @@ from ._library import call, constants, ffi, value_of, words
 _PREFIX = {"multiplier_basis": "BASIS", "mortar_side": "MORTAR", "no_shortcuts": "SHORTCUT", "multiplier_space": "SPACE"}
 # Short names of the interface's arguments.
 _SHORT = {"basis": "multiplier_basis"}
-_INTEGERS = ("index_base", "threads", "element_points")
+_INTEGERS = ("index_base", "threads", "element_points", "small_displacements")
+
+
+_OPTIONS, _METHOD = "struct stickslip_options", "struct stickslip_method"
 
 
 def members() -> list[str]:
-    """Every option of the header."""
-    return [name for name, _ in ffi.typeof("struct stickslip_options").fields if name not in ("struct_size", "reserved")]
+    """Every option and every member of the method that the header has."""
+    return [*_fields(_OPTIONS), *_fields(_METHOD)]
+
+
+def _fields(struct: str) -> dict:
+    fields = ffi.typeof(struct).fields
+    return {name: field.type.cname for name, field in fields if name not in ("struct_size", "method")}
 
 
 def make(given: dict):
-    """The C struct: the library's defaults, then what was given."""
-    out = ffi.new("struct stickslip_options *")
-    call("options_init", out, ffi.sizeof("struct stickslip_options"))
-    known = members()
+    """The C struct: the library's defaults, or the paper's element (``method="paper"``), then what was given. What it points to
+    comes second, and has to live as long."""
+    out, method = ffi.new(f"{_OPTIONS} *"), ffi.new(f"{_METHOD} *")
+    call("options_init", out, ffi.sizeof(_OPTIONS))
+    method.struct_size = ffi.sizeof(_METHOD)
+    given = dict(given)
+    kind = given.pop("method", "default")
+    if kind not in ("default", "paper"):
+        raise ValueError(f"method: {kind!r}; 'default' and 'paper' are possible")
+    if kind == "paper":
+        call("options_paper", out)
+        method[0] = out.method[0]
+    out.method = method
+    of = {**dict.fromkeys(_fields(_OPTIONS), out), **dict.fromkeys(_fields(_METHOD), method)}
     for name, value in given.items():
         name = _SHORT.get(name, name)
-        if name not in known:
-            raise TypeError(f"{name}: no option; there are {', '.join(known)}")
-        setattr(out, name, _number(name, value))
+        if name not in of:
+            raise TypeError(f"{name}: no option; there are method, {', '.join(of)}")
+        setattr(of[name], name, _number(name, value))
     if out.index_base != 0:
         raise ValueError("index_base: 0 is needed, as arrays of Python count from 0")
-    return out
+    return out, method
 
 
 def _number(name: str, value):
-    kind = dict(ffi.typeof("struct stickslip_options").fields)[name].type.cname
+    kind = {**_fields(_OPTIONS), **_fields(_METHOD)}[name]
     if kind == "double":
         if name == "weak_coverage" and value == "none":
             return constants["WEAK_COVERAGE_NONE"]

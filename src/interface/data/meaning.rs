@@ -15,7 +15,7 @@ pub const LENGTH: usize = 8;
 
 /// By [`MultiplierBasis`](super::options::MultiplierBasis), and with [`Decision::Points`].
 const BASES: [&str; 3] =
-    ["the standard multiplier basis", "the dual multiplier basis", "points that decide (options.decision)"];
+    ["the standard multiplier basis", "the dual multiplier basis", "points that decide (method.decision)"];
 const POINTS: i64 = 2;
 const WEIGHTS: [&str; 4] = [
     "weights of now",

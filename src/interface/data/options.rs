@@ -297,35 +297,35 @@ impl Options {
     /// Refuses numbers outside their range.
     pub fn validate(&self) -> Result<()> {
         let refuse = |name: &str, v: f64, allowed: &str| {
-            Err(Error::new(Kind::InvalidValue, text!("options.{name} is {v}; it must be {allowed}")))
+            Err(Error::new(Kind::InvalidValue, text!("{name} is {v}; it must be {allowed}")))
         };
         let (name, stiffness) = match self.stiffness {
-            Stiffness::Augmentation(r) => ("augmentation", r),
-            Stiffness::Modulus(e) => ("modulus", e),
+            Stiffness::Augmentation(r) => ("method.augmentation", r),
+            Stiffness::Modulus(e) => ("options.modulus", e),
         };
         if !(stiffness > 0.0 && stiffness.is_finite()) {
             return refuse(name, stiffness, "positive and finite");
         }
         if !(self.mu >= 0.0 && self.mu.is_finite()) {
-            return refuse("mu", self.mu, "finite and not negative");
+            return refuse("options.mu", self.mu, "finite and not negative");
         }
         if let Some(allowed) = self.friction.law().refuses(self.shear_limit) {
-            return refuse("shear_limit", self.shear_limit.unwrap_or(0.0), allowed);
+            return refuse("options.shear_limit", self.shear_limit.unwrap_or(0.0), allowed);
         }
         if !(0.0..1.0).contains(&self.coverage_min) {
-            return refuse("coverage_min", self.coverage_min, "at least 0 and below 1");
+            return refuse("method.coverage_min", self.coverage_min, "at least 0 and below 1");
         }
         if !(0.0..=1.0).contains(&self.weak_coverage) && self.weak_coverage != NO_WEAK_COVERAGE {
-            return refuse("weak_coverage", self.weak_coverage, "at least 0 and at most 1, or -1 for none");
+            return refuse("method.weak_coverage", self.weak_coverage, "at least 0 and at most 1, or -1 for none");
         }
         if !(self.turn_max > 0.0 && self.turn_max <= PI) {
-            return refuse("turn_max", self.turn_max, "positive and at most pi");
+            return refuse("method.turn_max", self.turn_max, "positive and at most pi");
         }
         if self.decision != Decision::Nodes {
             features::needs!(POINTS);
         }
         match self.search_distance {
-            Some(d) if !(d > 0.0 && d.is_finite()) => refuse("search_distance", d, "positive and finite"),
+            Some(d) if !(d > 0.0 && d.is_finite()) => refuse("options.search_distance", d, "positive and finite"),
             _ => compose::refuse(self.features()),
         }
     }

@@ -103,12 +103,12 @@ fn refuse_angle(options: &Options, angle: f64, what: impl Fn() -> Text) -> Resul
     let (since, remedy) = if !options.friction.law().opens {
         (
             "since the first configuration, along whose normals offsets of tied surfaces act",
-            "mesh the interference or the gap, or take a larger options.turn_max if the offsets are small",
+            "mesh the interference or the gap, or take a larger method.turn_max if the offsets are small",
         )
     } else if options.effective_weights() == Weights::Reference {
         (
             "since the first configuration, which STICKSLIP_WEIGHTS_REFERENCE are of",
-            "take STICKSLIP_WEIGHTS_CURRENT, or a larger options.turn_max if that is meant; smaller steps are of no help",
+            "take STICKSLIP_WEIGHTS_CURRENT, or a larger method.turn_max if that is meant; smaller steps are of no help",
         )
     } else if options.follows_normals() {
         (
@@ -125,7 +125,7 @@ fn refuse_angle(options: &Options, angle: f64, what: impl Fn() -> Text) -> Resul
 #[inline(never)] // it is met three times
 pub(super) fn too_far(options: &Options, what: Text, angle: f64, (since, remedy): (&str, &str)) -> Error {
     let text = text!(
-        "{what} has turned by {:.1} degrees {since}, more than the {:.1} that are allowed (options.turn_max): {remedy}",
+        "{what} has turned by {:.1} degrees {since}, more than the {:.1} that are allowed (method.turn_max): {remedy}",
         angle.to_degrees(),
         options.turn_max.to_degrees()
     );

@@ -37,6 +37,7 @@ struct Input {
     one: stickslip_surface,
     two: stickslip_surface,
     options: stickslip_options,
+    method: stickslip_method,
 }
 
 const OFFSETS: [i64; 2] = [0, 4];
@@ -66,8 +67,12 @@ impl Input {
         input.two.coordinates = input.x2.as_ptr();
         // SAFETY: a struct of its size.
         assert_eq!(unsafe { stickslip_options_init(&mut input.options, size_of::<stickslip_options>() as u64) }, 0);
+        // SAFETY: as before.
         assert_eq!(unsafe { stickslip_options_paper(&mut input.options) }, 0);
-        (input.options.mu, input.options.augmentation) = (0.3, 15.0);
+        // SAFETY: the library's.
+        input.method = stickslip_method { augmentation: 15.0, ..unsafe { *input.options.method } };
+        input.options.method = &raw const input.method;
+        input.options.mu = 0.3;
         (input.options.mortar_side, input.options.shape, input.options.radius) =
             (STICKSLIP_MORTAR_ANALYTIC, shape, radius);
         input
