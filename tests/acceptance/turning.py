@@ -81,7 +81,7 @@ def in_a_bore(degrees, whole=40, **contact):
 def corrected(verdicts, driver):
     """Steps that turn a surface by ten degrees with normals of the step's start are solved again with those that they reach."""
     solve = lambda degrees, label, *options, **more: driver.run(
-        write(in_a_bore(degrees, normals="committed"), driver.output / "scenes" / f"bore_{label}.yaml"), *options, label=f"bore_{label}", **more)
+        write(in_a_bore(degrees, basis="standard", normals="committed"), driver.output / "scenes" / f"bore_{label}.yaml"), *options, label=f"bore_{label}", **more)
     torques = lambda run: np.array([step["moments"]["turn"][2] for step in run.steps if step["t"] > 1])
     long, short = solve(10, "long"), torques(solve(1.25, "short"))[-1]
     verdicts.below("a shaft turned by 10 degrees a step: cut-backs", long.summary["cutbacks"], 0, "normals are found anew instead")

@@ -158,29 +158,41 @@ Law = struct(
 )
 SUMS = 11  # numbers a node of stickslip_interface_sums
 
-# The variable of the environment that says which multipliers the matrix is about, and the library's numbers of them.
+# What the library chooses by the other options.
+AUTO = 0
+# STICKSLIP_BASIS_..., STICKSLIP_NORMALS_..., STICKSLIP_WEIGHTS_...
+STANDARD, DUAL = 1, 2
+OF_COMMIT, OF_NOW = 1, 2
+CURRENT, COMMITTED, REFERENCE = 1, 2, 3
+
+# The variable of the environment that says which multipliers the matrix is about, where they are not the library's choice, and the
+# library's numbers of them.
 BASIS = "STABILITY_BASIS"
-BASES = {"standard": 0, "dual": 1}
+BASES = {"standard": STANDARD, "dual": DUAL}
+# The same of the normals. Where weights are frozen, normals are committed whatever it says.
+NORMALS = "STABILITY_NORMALS"
+NORMALS_OF = {"committed": OF_COMMIT, "current": OF_NOW}
 
 
 def basis_in_question():
-    """Which ones it is about."""
-    return os.environ.get(BASIS, "standard")
+    """Which multipliers nodes at corners have."""
+    return os.environ.get(BASIS, "dual")
 
 
-# The same of the normals. Where weights are frozen, normals are committed whatever it says.
-NORMALS = "STABILITY_NORMALS"
-NORMALS_OF = {"committed": 0, "current": 1}
+def spaces_in_question():
+    """Where they may stand: at all nodes not where they are asked to be dual."""
+    return SPACES[:1] if os.environ.get(BASIS) == "dual" else SPACES
 
 
 def normals_in_question():
-    return os.environ.get(NORMALS, "committed")
+    """Where weights are those of now."""
+    return os.environ.get(NORMALS, "current")
 
 
-def fade(c):
+def fade(c, space="corner"):
     """phi: facets of which less than a hundredth is covered fade out with dual multipliers (docs/formulation.md 10.5)."""
     s = min(max((c - 1e-4) / (1e-2 - 1e-4), 0.0), 1.0)
-    return s**2 * (3 - 2 * s) if basis_in_question() == "dual" else 1.0
+    return s**2 * (3 - 2 * s) if space == "corner" and basis_in_question() == "dual" else 1.0
 
 
 class Library:
@@ -247,8 +259,9 @@ class Interface:
         sides[0].multiplier_equations = self.keep(multipliers, np.int64)
         chosen = Options()
         library.call("options_init", byref(chosen), c_uint64(chosen.struct_size))
-        chosen.basis = BASES[basis_in_question()]
-        chosen.normals = NORMALS_OF[normals_in_question()] if not options.get("weights") else NORMALS_OF["committed"]
+        chosen.basis = BASES.get(os.environ.get(BASIS), AUTO)
+        if options.get("weights", CURRENT) == CURRENT:
+            chosen.normals = NORMALS_OF.get(os.environ.get(NORMALS), AUTO)
         for name, value in options.items():
             setattr(chosen, name, value)
         self.handle = c_void_p()
