@@ -307,7 +307,8 @@ def stack(cells):
               "loads": ["tip"], "tip": {"surface": f"{bodies[-1]}.xmax", "traction": [0, -1]},
               "interfaces": [f"gap{k}" for k in range(len(cells) - 1)]}
     for k in range(len(cells) - 1):
-        scene[f"gap{k}"] = {"nonmortar": f"{bodies[k + 1]}.ymin", "mortar": f"{bodies[k]}.ymax", "lag_max": 1}  # beams of linear theory
+        scene[f"gap{k}"] = {"nonmortar": f"{bodies[k + 1]}.ymin", "mortar": f"{bodies[k]}.ymax", "normals": "committed",
+                            "lag_max": 1}  # beams of linear theory
     return scene | {"probes": ["p"], "p": {"body": bodies[-1], "point": [LENGTH, LEAF * len(cells)]}, "steps": {"count": 1},
                     "output": {"vtu": "none"}}
 
