@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 import overlaps
-from library import Interface
+from library import BASES, COMMITTED, CURRENT, OF_COMMIT, REFERENCE, Interface
 
 # rhat over E* / h, E* of both bodies together, as in Hertz' formulas.
 STIFFNESS = 0.9
@@ -29,8 +29,7 @@ TINY = 1e-30
 APART = 12
 # Gauss points an overlap and a direction: the library's own rule for lines, and exact for their weights.
 RULE = 2
-# In the header's order.
-WEIGHTS = ("current", "committed", "reference")
+WEIGHTS = {"current": CURRENT, "committed": COMMITTED, "reference": REFERENCE}
 
 
 @dataclass
@@ -54,7 +53,7 @@ class Nodal:
         lines = {"model": 1} if pair.dimension == 2 else {}
         self.components = pair.dimension if mu else 1
         self.interface = Interface(library, x1, pair.one.facets, x2, pair.two.facets, components=self.components, mu=mu,
-                                   basis=("standard", "dual").index(basis), weights=WEIGHTS.index(weights),
+                                   basis=BASES[basis], weights=WEIGHTS[weights], normals=OF_COMMIT,
                                    modulus=pair.modulus, friction=0 if mu else 1,
                                    decision=("nodes", "points").index(decision), **lines)
 

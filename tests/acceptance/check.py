@@ -45,6 +45,7 @@ from slider import slider, slider_fine  # noqa: E402
 from sliding import sliding  # noqa: E402
 from scene import Driver, SceneError  # noqa: E402
 from sound import sound  # noqa: E402
+from split import split, split_fine  # noqa: E402
 from springs import springs  # noqa: E402
 from stepping import stepping  # noqa: E402
 from thrown import thrown  # noqa: E402
@@ -101,6 +102,8 @@ GROUPS = {
     "slider": slider,
     "slider_fine": slider_fine,  # minutes; not among the tests
     "sound": sound,
+    "split": split,
+    "split_fine": split_fine,
     "springs": springs,
     "stepping": stepping,
     "thrown": thrown,

@@ -211,7 +211,8 @@ def analytic(verdicts, driver):
     for law, options, weights_of in (
         ("none", (), both),
         ("Coulomb", ("-contact_friction", "0.2"), both),
-        ("rough", ("-contact_law", "rough"), both[:1]),
+        # With dual multipliers a node of the rim that pulls where it sticks overlaps where it is open: this law has no answer then.
+        ("rough", ("-contact_law", "rough", "-contact_basis", "standard"), both[:1]),
     ):
         for weights in weights_of:
             label, name = f"analytic plane, {law}, {weights} weights", f"{law}_{weights}"

@@ -13,9 +13,11 @@ import numpy as np
 
 from comparisons import multiplier
 
-# The differences err by 1e-8 (PETSc's: one-sided, with steps of 1.5e-8) and by 1e-9 (central: see jacobian_test.c);
+# The differences err by 3e-8 (PETSc's: one-sided, with steps of ONE_SIDED) and by 1e-9 (central: see jacobian_test.c);
 # leaving out one term of the tangent changes a block by 1e-3 or more.
 JACOBIAN_BOUND = 1e-7
+# PETSc's own step of 1.5e-8 errs by 1e-7 where facets are not flat: the curvature's part, which falls with the step.
+ONE_SIDED = ("-snes_test_err", 5e-9)
 
 # Displacements and multipliers within one order: one step of differences then suits both, and one norm sees both.
 LIKE_MAGNITUDES = 10
@@ -73,7 +75,7 @@ LAW_STATES = {"no friction": ("gap", "slip"), "rough": ("gap", "stick")}
 def jacobian(verdicts, driver):
     for name, options in VARIANTS.items():
         label = name.replace(",", "").replace(" ", "_")
-        run = driver.run("jacobian_states", *options, "-snes_test_jacobian", "-test_jacobian_blocks", label=label)
+        run = driver.run("jacobian_states", *options, "-snes_test_jacobian", *ONE_SIDED, "-test_jacobian_blocks", label=label)
         magnitudes(verdicts, name, run)
         whole_matrix(verdicts, name, run)
         blocks(verdicts, name, run)
@@ -87,11 +89,13 @@ def magnitudes(verdicts, name, run):
 
 
 def whole_matrix(verdicts, name, run):
-    """Every evaluation of the tangent, by PETSc's own test."""
+    """Every evaluation of the tangent, by PETSc's own test; but for the first one where differences cross a kink there: on which side it
+    lies is chance."""
     ratios = [float(r) for r in re.findall(r"\|\|J - Jfd\|\|_F/\|\|J\|\|_F = ([^,\s]+)", run.text)]
     evaluations = run.newton_iterations
     verdicts.near(f"{name}: tangents that PETSc tested", len(ratios), evaluations, 0, "one an iteration")
-    verdicts.below(f"{name}: -snes_test_jacobian", worst(ratios), JACOBIAN_BOUND, "one-sided differences")
+    kinks = run.steps[0].get("jacobian_tests", [{}])[0].get("switches", 0) > 0
+    verdicts.below(f"{name}: -snes_test_jacobian", worst(ratios[kinks:]), JACOBIAN_BOUND, "one-sided differences")
 
 
 def blocks(verdicts, name, run, shift=0.0):

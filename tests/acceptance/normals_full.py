@@ -2,9 +2,10 @@
 
 import numpy as np
 from idle import SHORTER, SKIPPED, all_scenes, followed, idle_steps
-from normals import QUIET, ironing
+from normals import QUIET
 from normals_scenes import dragged_ball, ring
 from scene import SCENES, write
+from split import ironing
 
 BOTH = ("current", "committed")
 
@@ -25,7 +26,7 @@ LEFT_OUT = {"torsion": SKIPPED["torsion"], "two_bars": "dynamics", "sliding_down
 
 def normals_full(verdicts, driver):
     """Ten minutes."""
-    ironing(verdicts, driver, (), "full", (100, 200))
+    ironing(verdicts, driver, (0.01,), (), "full", 0.02)
     friction_on_an_arc(verdicts, driver)
     deep(verdicts, driver)
     for scene, reason in SKIPPED.items():

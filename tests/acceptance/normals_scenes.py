@@ -8,7 +8,7 @@ def box(young, **keys):
     return {"type": "box", "young": young, "poisson": 0.3, "material": "neo_hooke"} | keys
 
 
-def dragged_ball(steps, friction, normals, depth=0.2, angle=1.0, arm=1.5):
+def dragged_ball(steps, friction, normals="auto", depth=0.2, angle=1.0, arm=1.5):
     """Half a ball of radius 1, stiff, is pressed into a soft slab by `depth` in four steps, then dragged along an arc of
     radius `arm` through `angle`."""
     return {

@@ -24,6 +24,10 @@ BALL_BOUND = 0.01
 # Of the contact radius: where the border, which lies inside a facet, disturbs the pressure little.
 WITHIN = 0.75
 
+# Iterations are counted down to so much of the largest first residual of a step. A layer of two rows of nodes has another augmentation, and
+# norms that are other sums: a norm that is within NEARLY of the limit may lie on this side or on that.
+COUNTED, NEARLY = 1e-9, 10
+
 KINDS = ("quad", "tri", "tri6", "quad8", "quad9")
 MODELS = {"plane_strain": 0.7, "plane_stress": 0.7, "axisymmetric": None}
 YOUNG, POISSON, PRESSURE = 1000.0, 0.3, 10.0
@@ -127,7 +131,7 @@ def compare(verdicts, label, flat, solid, axes):
     scale = np.ptp(points_3[:, across]) if name == "contact" else 1.0
     error = np.abs(forces[0][:2] * scale - forces[1][list(axes)]).max() / np.abs(forces[1]).max()
     verdicts.below(f"{label}: force", error, SAME_BOUND, "one layer in space")
-    different = sum(a["newton_iterations"] != b["newton_iterations"] for a, b in zip(flat.steps, solid.steps))
+    different = other_iterations(flat, solid)
     verdicts.below(f"{label}: steps with other iterations", different + abs(len(flat.steps) - len(solid.steps)), 0, "one layer")
 
 
@@ -144,8 +148,19 @@ def same_as_space(verdicts, driver):
         here = tables[0][force]
         there = np.array([tables[1][of][np.abs(tables[1]["X"] - x) <= SAME_PLACE].sum() for x in tables[0]["X"]])
         verdicts.below(f"block: nodal {force}", np.abs(here - there).max() / 40, SAME_BOUND, "one layer, of 200 times 0.2")
-    different = sum(a["newton_iterations"] != b["newton_iterations"] for a, b in zip(flat.steps, solid.steps))
+    different = other_iterations(flat, solid)
     verdicts.below("block: steps with other iterations", different, 0, "one layer in space")
+
+
+def other_iterations(one, other):
+    """Steps that took another number of iterations."""
+    most, least = zip(*([counted(run.steps, part) for part in (COUNTED / NEARLY, COUNTED * NEARLY)] for run in (one, other)))
+    return sum(l0 > m1 or l1 > m0 for m0, m1, l0, l1 in zip(*most, *least))
+
+
+def counted(steps, part):
+    enough = part * max(step["residual_norms"][0] for step in steps)
+    return [sum(norm > enough for norm in step["residual_norms"]) for step in steps]
 
 
 def plates(driver, solid, basis):

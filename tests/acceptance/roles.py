@@ -29,8 +29,7 @@ def sliding_pad(nonmortar, **contact):
         "press": press,
         "push": push,
         "interfaces": ["contact"],
-        # What a step with normals of t_n makes wrong is not the question here.
-        "contact": {"nonmortar": nonmortar, "mortar": other, "friction": 0.3, "lag_max": 1, **contact},
+        "contact": {"nonmortar": nonmortar, "mortar": other, "friction": 0.3, **contact},
         "steps": {"stages": [1, 2, 2, 6]},
         "output": {"vtu": "none", "csv": "none"},
     }
@@ -41,17 +40,19 @@ def roles(verdicts, driver):
         return driver.run(write(scene, driver.output / "scenes" / f"{label}.yaml"), *options, label=label, **more)
 
     pad = solve("pad", sliding_pad("pad.zmin"))
-    base = solve("base", sliding_pad("base.zmax", weak_coverage=0.5))
-    for label, run in (("the pad", pad), ("the base, weak_coverage", base)):
+    base = solve("base", sliding_pad("base.zmax"))
+    # Normals of now follow the base's dent beside the pad's edge, where what half covered nodes would bear has gone to their neighbours:
+    # 2 % of the drag. With normals of t_n, which must not cut a step back here, that is not seen.
+    paper = {"lag_max": 1, "weak_coverage": 0.5}
+    old = [solve(f"{label}_paper", sliding_pad(side, **keys), "-method", "paper")
+           for label, side, keys in (("pad", "pad.zmin", {"lag_max": 1}), ("base", "base.zmax", paper))]
+    for label, run in (("the pad", pad), ("the base, its newly covered nodes carried", base), ("the base, weak_coverage", old[1])):
         verdicts.below(f"{label}: cut-backs", run.summary["cutbacks"], 0, "its nodes are covered, or are carried")
         verdicts.below(f"{label}: iterations", run.newton_iterations, ITERATIONS, "a dozen a step")
-    for axis, name in ((0, "drag"), (2, "pressure")):
-        forces = [abs(run.resultant("contact")[axis]) for run in (pad, base)]
-        verdicts.near(f"{name} of either choice", *forces, MESH, "the meshes' errors")
-    alone = solve("base_alone", sliding_pad("base.zmax"))
-    for axis, name in ((0, "drag"), (2, "pressure")):
-        forces = [abs(run.resultant("contact")[axis]) for run in (pad, alone)]
-        verdicts.near(f"{name} of the base by default: newly covered nodes are carried", *forces, MESH, "the meshes' errors")
+    for label, runs in (("either choice", (pad, base)), ("either choice, the paper's element, weak_coverage", old)):
+        for axis, name in ((0, "drag"), (2, "pressure")):
+            forces = [abs(run.resultant("contact")[axis]) for run in runs]
+            verdicts.near(f"{name} of {label}", *forces, MESH, "the meshes' errors")
     failed = solve("base_by_itself", sliding_pad("base.zmax", weak_coverage=-1), *HOPELESS, expect=2)
     for key in ("weak_coverage: 0.5", "swap `nonmortar` and `mortar`"):
         verdicts.true(f"the base, no node carried: the message names {key}", key in failed.text, "what helps")

@@ -14,8 +14,6 @@ BLOCK_DOWN = np.array([-1.2, -0.6, -0.28, -0.14, -0.087, -0.058, -0.029, 0])
 SHAPES = ("cylinder", "ball", "cube")
 # A tenth of the radius is in contact, or a third of the cube's edge.
 TRACTIONS = {"cylinder": 2.2, "ball": 0.25, "cube": 5.0}
-# Normals of a step's start in all steps, whatever they lag by: what a correction of these leaves depends on where it began.
-AS_IT_IS = {"lag_max": 1}
 ELASTIC = {"young": 1000, "poisson": 0.3}
 
 
@@ -96,7 +94,7 @@ def touching(shape, base="block", gap=0.0, friction=0.0, times=(0.25, 0.5, 1.0),
         "loads": ["press"],
         "press": {"surface": head, "traction": [0, 0, -down * TRACTIONS[shape]]},
         "interfaces": ["contact"],
-        "contact": {"nonmortar": "foot", "mortar": top, "friction": friction} | AS_IT_IS | (contact or {}),
+        "contact": {"nonmortar": "foot", "mortar": top, "friction": friction} | (contact or {}),
         "steps": {"times": list(times)},
         "probes": ["pole"],
         "pole": {"body": "upper", "point": [float(v) for v in point]},

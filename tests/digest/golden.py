@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from histories import digest, evaluate, loaded
-from library import Interface, Refused
+from library import OF_COMMIT, STANDARD, Interface, Refused
 
 ROOT = Path(__file__).resolve().parents[2]
 VARIANTS = {"objective": 0, "increment": 1, "seed": 2}
@@ -26,8 +26,8 @@ def pair(library, case):
 
 
 def interface(library, case):
-    """Residual, tangent and states."""
-    options = {"slip": VARIANTS[case["variant"]], "mu": 1.0, "augmentation": 1.0}
+    """Residual, tangent and states, of the paper's element."""
+    options = {"slip": VARIANTS[case["variant"]], "mu": 1.0, "augmentation": 1.0, "basis": STANDARD, "normals": OF_COMMIT}
     made = Interface(library, case["x1_prev"], case["facets1"], case["x2_prev"], case["facets2"], **options)
     made.set("normals", case["nu"])
     made.set("augmentation", case["r"])

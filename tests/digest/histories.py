@@ -11,13 +11,11 @@ from pathlib import Path
 import numpy as np
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "stability"))
-from library import Interface, Law, Library, Refused, pointer  # noqa: E402  (needs the path)
+from library import COMMITTED, CURRENT, DUAL, OF_COMMIT, OF_NOW, REFERENCE, STANDARD, Interface, Law, Library, Refused, pointer  # noqa: E402  (needs the path)
 
 RIGID, ANALYTIC = 1, 2  # STICKSLIP_MORTAR_RIGID, STICKSLIP_MORTAR_ANALYTIC
 COULOMB, FRICTIONLESS, TRESCA = 0, 1, 4  # STICKSLIP_FRICTION_...
-STANDARD, DUAL, POINTS = 1, 2, 1  # STICKSLIP_BASIS_STANDARD, STICKSLIP_BASIS_DUAL, STICKSLIP_DECISION_POINTS
-CURRENT, WEIGHTS_COMMITTED, REFERENCE = 1, 2, 3  # STICKSLIP_WEIGHTS_...
-COMMITTED, NOW = 1, 2  # STICKSLIP_NORMALS_COMMITTED, _CURRENT
+POINTS = 1  # STICKSLIP_DECISION_POINTS
 NONE = -1.0  # STICKSLIP_WEAK_COVERAGE_NONE
 FORCES, CONSTRAINTS = 0, 2  # STICKSLIP_CONDENSED_...
 # What a mesh is of, as often as it stands here. "mixed": some facets are quadratic.
@@ -117,7 +115,7 @@ def choose(random, kind):
     options = {
         "form": pick(0, 0, 1),
         "slip": pick(0, 0, 1, 2),
-        "weights": pick(CURRENT, CURRENT, CURRENT, WEIGHTS_COMMITTED, REFERENCE),
+        "weights": pick(CURRENT, CURRENT, CURRENT, COMMITTED, REFERENCE),
         "friction": pick(0, 0, 0, 1, 2, 3, TRESCA),
         "mortar_side": pick(0, 0, 0, 1, 2),
         "quadrature": pick(0, 0, 1, 2, 3, 4, 5),
@@ -137,19 +135,20 @@ def choose(random, kind):
     if options["friction"]:
         options["mu"] = 0.0
     # Normals of now go with weights of now.
-    options["normals"] = pick(COMMITTED, COMMITTED, NOW) if options["weights"] == CURRENT else COMMITTED
+    options["normals"] = pick(OF_COMMIT, OF_COMMIT, OF_NOW) if options["weights"] == CURRENT else OF_COMMIT
     options["basis"] = pick(STANDARD, STANDARD, DUAL)
     if kind != "linear":
         options["multiplier_space"] = 0 if options["basis"] == DUAL else pick(0, 1)
-        options |= {"form": 0, "normals": COMMITTED, "integration": 0}
+        options["form"] = options["integration"] = 0
+        options["normals"] = OF_COMMIT
     if kind == "lines":
         options |= {"model": pick(1, 2), "tangent": pick(0, 0, 2)}
         options["thickness"] = 0.7 if options["model"] == 1 else 0.0
     elif random.random() < 0.1 and kind == "linear" and options["mortar_side"] != ANALYTIC:
-        options |= {"decision": POINTS, "basis": DUAL, "form": 0, "normals": COMMITTED, "integration": 0, "weak_coverage": NONE}
+        options |= {"decision": POINTS, "basis": DUAL, "form": 0, "normals": OF_COMMIT, "integration": 0, "weak_coverage": NONE}
         options["friction"] = pick(COULOMB, FRICTIONLESS)
         if options["friction"] == COULOMB:
-            options |= {"mu": pick(0.2, 0.5), "weights": pick(WEIGHTS_COMMITTED, REFERENCE), "slip": pick(0, 1)}
+            options |= {"mu": pick(0.2, 0.5), "weights": pick(COMMITTED, REFERENCE), "slip": pick(0, 1)}
         else:
             options["mu"] = 0.0
     if options["friction"] == TRESCA:

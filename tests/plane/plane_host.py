@@ -3,11 +3,15 @@ quadrilaterals of a model in space, whose nodes above each other have the same u
 
 import numpy as np
 
-from library import ENDS, Interface, mid_nodes
+from library import DUAL, ENDS, OF_COMMIT, STANDARD, Interface, mid_nodes
 
 MODELS = {"strain": 1, "stress": 1, "ring": 2}
-# Multipliers: their space, and their basis.
-SPACES = {"corner": (0, 0), "sub": (1, 0), "dual": (0, 1)}
+# Multipliers: the paper's element; standard ones at all nodes, and dual ones, with the normals that the library takes.
+SPACES = {
+    "corner": {"multiplier_space": 0, "basis": STANDARD, "normals": OF_COMMIT},
+    "sub": {"multiplier_space": 1, "basis": STANDARD},
+    "dual": {"multiplier_space": 0, "basis": DUAL},
+}
 # Of Newton's method: the last step over all displacements, after which its square is left; and iterations.
 TOLERANCE, ITERATIONS = 1e-9, 30
 
@@ -18,7 +22,7 @@ class NotConverged(Exception):
 
 def choices(space):
     """The options of these multipliers."""
-    return dict(zip(("multiplier_space", "basis"), SPACES[space]))
+    return SPACES[space]
 
 
 class Lines:

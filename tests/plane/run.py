@@ -11,7 +11,7 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path += [str(ROOT / "studies" / "common"), str(ROOT / "tests" / "stability")]
-from library import Library  # noqa: E402
+from library import COMMITTED, CURRENT, Library  # noqa: E402
 from plane_cells import Body  # noqa: E402
 from plane_host import SPACES, Host, Layer, Lines, choices  # noqa: E402
 from plane_patch import pressed  # noqa: E402
@@ -67,7 +67,7 @@ def slide(library, v):
         "on a longer one": ((4, (0.3, 1.5)), (9, (0.0, 2.2)), SLIDE),
         "over both edges": ((9, (0.0, 2.2)), (5, (0.33, 1.77)), OVERHANG),
     }
-    for (where, sides), (space, weights) in itertools.product(plates.items(), (("corner", 0), ("dual", 0), ("dual", 1))):
+    for (where, sides), (space, weights) in itertools.product(plates.items(), (("corner", CURRENT), ("dual", CURRENT), ("dual", COMMITTED))):
         found = []
         for kind in (Lines, Layer):
             (n, (a, b)), (m, (c, d)), path = sides
@@ -84,7 +84,7 @@ def slide(library, v):
                 states |= set(host.states["state"])
             found.append((steps, np.concatenate([host.u, host.lam.ravel() / YOUNG]), states))
         (own, u, states), (layer, w, _) = found
-        what = f"plate {where}, {space}, weights of {'t_n' if weights else 'now'}"
+        what = f"plate {where}, {space}, weights of {'now' if weights == CURRENT else 't_n'}"
         v.below(f"{what}: lines against one layer", np.abs(u - w).max() / np.abs(u).max(), SAME, "rounding")
         v.below(f"the same: difference of iterations ({own})", np.abs(np.subtract(own, layer)).max(), 0, "the same system")
         v.at_least("the same: states that occur", len(states), 2, "stick and slip")
@@ -104,7 +104,7 @@ def ball(library, v):
 
         upper = Body((along, along // 2), (0, 0, 1, 1), nodes, "ring", YOUNG, POISSON, map=upper_map)
         lower = Body((along, along // 2), (0, -1, 1, 0), nodes, "ring", YOUNG, POISSON, map=lambda p: np.array([graded(p[0]), -graded(-p[1])]))
-        host = Host(library, (upper, lower), ("bottom", "top"), modulus=YOUNG, mu=0.0, basis=1)
+        host = Host(library, (upper, lower), ("bottom", "top"), modulus=YOUNG, mu=0.0)
         fixed = host.on(0, 0, 0.0, lambda x: x[0] == 0) | host.on(1, 0, 0.0, lambda x: x[0] == 0)
         fixed |= host.on(1, 1, 0.0, lambda x: x[1] == -far) | host.on(1, 0, 0.0, lambda x: x[1] == -far)
         for down in np.linspace(0, -0.06, 4)[1:]:

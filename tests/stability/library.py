@@ -136,30 +136,41 @@ Law = struct(
 )
 SUMS = 11  # numbers a node of stickslip_interface_sums
 
-# The variable of the environment that says which multipliers the matrix is about, and the library's numbers of them.
+# What the library chooses by the other options.
+AUTO = 0
+# STICKSLIP_BASIS_..., STICKSLIP_NORMALS_..., STICKSLIP_WEIGHTS_...
+STANDARD, DUAL = 1, 2
+OF_COMMIT, OF_NOW = 1, 2
+CURRENT, COMMITTED, REFERENCE = 1, 2, 3
+
+# The variable of the environment that says which multipliers the matrix is about, where they are not the library's choice, and the
+# library's numbers of them.
 BASIS = "STABILITY_BASIS"
-BASES = {"standard": 1, "dual": 2}  # STICKSLIP_BASIS_...
+BASES = {"standard": STANDARD, "dual": DUAL}
+# The same of the normals. Where weights are frozen, normals are committed whatever it says.
+NORMALS = "STABILITY_NORMALS"
+NORMALS_OF = {"committed": OF_COMMIT, "current": OF_NOW}
 
 
 def basis_in_question():
-    """Which ones it is about."""
-    return os.environ.get(BASIS, "standard")
+    """Which multipliers nodes at corners have."""
+    return os.environ.get(BASIS, "dual")
 
 
-# The same of the normals. Where weights are frozen, normals are committed whatever it says.
-NORMALS = "STABILITY_NORMALS"
-NORMALS_OF = {"committed": 1, "current": 2}  # STICKSLIP_NORMALS_...
-CURRENT = 1  # STICKSLIP_WEIGHTS_CURRENT
+def spaces_in_question():
+    """Where they may stand: at all nodes not where they are asked to be dual."""
+    return SPACES[:1] if os.environ.get(BASIS) == "dual" else SPACES
 
 
 def normals_in_question():
-    return os.environ.get(NORMALS, "committed")
+    """Where weights are those of now."""
+    return os.environ.get(NORMALS, "current")
 
 
-def fade(c):
+def fade(c, space="corner"):
     """phi: facets of which less than a hundredth is covered fade out with dual multipliers (docs/formulation.md 10.5)."""
     s = min(max((c - 1e-4) / (1e-2 - 1e-4), 0.0), 1.0)
-    return s**2 * (3 - 2 * s) if basis_in_question() == "dual" else 1.0
+    return s**2 * (3 - 2 * s) if space == "corner" and basis_in_question() == "dual" else 1.0
 
 
 class Library:
@@ -227,9 +238,9 @@ class Interface:
         chosen, method = Options(), Method()
         library.call("options_init", byref(chosen), c_uint64(chosen.struct_size))
         chosen.method = ctypes.pointer(method)
-        method.basis, method.normals = BASES[basis_in_question()], NORMALS_OF[normals_in_question()]
-        if options.get("weights", CURRENT) != CURRENT:
-            method.normals = NORMALS_OF["committed"]
+        method.basis = BASES.get(os.environ.get(BASIS), AUTO)
+        if options.get("weights", CURRENT) == CURRENT:
+            method.normals = NORMALS_OF.get(os.environ.get(NORMALS), AUTO)
         for name, value in options.items():
             setattr(chosen if hasattr(chosen, name) else method, name, value)
         self.handle = c_void_p()

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from library import DUAL, STANDARD
+
 # Numbers of the library for the models: plane strain, and axisymmetric.
 STRAIN, RING = 1, 2
 MODELS = {"strain": {"model": STRAIN, "thickness": 1.0}, "ring": {"model": RING}}
@@ -9,7 +11,7 @@ NAMES = {2: "line2", 3: "line3"}
 # What meets what: each kind on itself and on the other one.
 MET = [(2, 2), (2, 3), (3, 2), (3, 3)]
 # Multipliers by their options.
-SPACES = {"corner": {"multiplier_space": 0}, "sub": {"multiplier_space": 1}, "dual": {"basis": 1}}
+SPACES = {"corner": {"basis": STANDARD}, "sub": {"multiplier_space": 1, "basis": STANDARD}, "dual": {"basis": DUAL}}
 
 
 def line(n, start=(0.0, 0.0), end=(1.0, 0.0)):

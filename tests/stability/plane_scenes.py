@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from library import basis_in_question
+from library import spaces_in_question
 
 KINDS = ("quad", "tri", "tri6", "quad8", "quad9")
 QUADRATIC = ("tri6", "quad8", "quad9")
@@ -14,7 +14,7 @@ SETTLES = 20 * 2 / YOUNG
 
 def spaces(*kinds):
     """Where multipliers may stand."""
-    return ("corner", "sub") if basis_in_question() == "standard" and any(kind in QUADRATIC for kind in kinds) else ("corner",)
+    return spaces_in_question() if any(kind in QUADRATIC for kind in kinds) else ("corner",)
 
 
 def patch(model, lower, upper, space="corner", *, x=((0, 0.3, 0.7, 1.3, 2), (0, 0.5, 1.1, 2)), inside=1.0, young=(1, 1), poisson=POISSON,

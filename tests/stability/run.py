@@ -162,7 +162,7 @@ def main():
     parser.add_argument(
         "--kind", choices=(cells.SCENE, cells.ELEMENT), help="cells of the driver, or of single calls"
     )
-    parser.add_argument("--basis", choices=BASES, help="of the multipliers, where a cell says nothing; a report of its own")
+    parser.add_argument("--basis", choices=BASES, help="of the multipliers, where a cell says nothing, for the library's choice; a report of its own")
     parser.add_argument("--normals", choices=NORMALS_OF, help="the same of the normals, where weights are not frozen")
     parser.add_argument("--again", action="store_true", help="keep nothing")
     parser.add_argument("--renew-figures", action="store_true", help="renew the committed figures too; all cells only")

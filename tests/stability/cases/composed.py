@@ -7,12 +7,12 @@ import numpy as np
 
 from cell import ELEMENT, Outcome, series
 from cases.assembled import grid, pressed
-from library import Interface, Law, Refused
+from library import COMMITTED, DUAL, OF_COMMIT, OF_NOW, STANDARD, Interface, Law, Refused
 from quadratic import grid as quadratic_grid
 from scenes import EPS
 
-ANALYTIC, FRICTIONLESS, ROUGH, DUAL, COMMITTED = 2, 1, 3, 1, 1  # STICKSLIP_..., in the header's words
-NORMALS_OF_NOW, WEAK_NONE, ORTHOTROPIC = 1, -1.0, 3
+ANALYTIC, FRICTIONLESS, ROUGH = 2, 1, 3  # STICKSLIP_..., in the header's words
+WEAK_NONE, ORTHOTROPIC = -1.0, 3
 SCHEMES = {"segments": 0, "elements": 1, "hybrid": 2}
 FORCES, ELIMINATION, CONSTRAINTS, ROWS, COLUMNS, CONSTRAINED, DIAGONAL = 0, 1, 2, 4, 5, 6, 7
 TILTS = (0.0, 1e-3, 1e-2, 0.03, 0.1, 0.3)
@@ -36,7 +36,7 @@ def framed(tilt):
         frame = np.array([(0, 0, 0), normal, (1.0, 0, tilt), (0, 1.0, 0)])
         for components, friction in ((1, FRICTIONLESS), (3, 0)):
             face = Interface(context.library, x1, f1, frame, None, components, frame=True, mortar_side=ANALYTIC, friction=friction,
-                             mu=0.0 if friction else 0.3, modulus=MODULUS, basis=0, normals=NORMALS_OF_NOW)  # fmt: skip
+                             mu=0.0 if friction else 0.3, modulus=MODULUS, basis=STANDARD, normals=OF_NOW)  # fmt: skip
             lam = np.full((len(x1), 1), -PRESSURE) if friction else pressed(x1, (0.1, 0.0, -PRESSURE))
             n = bent.size
             rows = slice(n, n + frame.size)
@@ -64,7 +64,7 @@ def shared(split):
         bend = lambda x: x + np.outer(0.02 - 0.05 * np.abs(x[:, 0] - split), (0, 0, 1))
         quad, lam, now = np.arange(4)[None], pressed(x1, (0.1, 0.0, -PRESSURE)), x1 - (0, 0, 1e-2)
         for name, scheme in SCHEMES.items():
-            options = {"modulus": MODULUS, "mu": 0.3, "integration": scheme, "basis": 0, "normals": 0}
+            options = {"modulus": MODULUS, "mu": 0.3, "integration": scheme, "basis": STANDARD, "normals": OF_COMMIT}
             both = Interface(library, x1, f1, np.vstack(plates), np.vstack((quad, quad + 4)), **options)
             expected = both.residual(now, np.vstack([bend(x) for x in plates]), lam)
             parts = [Interface(library, x1, f1, x, quad, **options) for x in plates]
@@ -92,7 +92,7 @@ def ellipse(text):
         outcome = Outcome()
         x1, f1 = grid(2, down=True)
         x2, f2 = grid(1, (-1.0, -1.0), 3.0)
-        face = Interface(context.library, x1, f1, x2, f2, mu=0.5, modulus=MODULUS, basis=DUAL, weights=COMMITTED, normals=0)
+        face = Interface(context.library, x1, f1, x2, f2, mu=0.5, modulus=MODULUS, basis=DUAL, weights=COMMITTED)
         law = Law(kind=ORTHOTROPIC, mu_across=0.5 / ratio, direction=(ctypes.c_double * 3)(2.0, -1.0, 0.0))
         context.library.call("interface_set_law", face.handle, ctypes.byref(law))
         at = x1 - (0, 0, 1e-3), x2, pressed(x1, (0.0, 0.0, -PRESSURE))
@@ -123,7 +123,7 @@ def symmetric(off):
             corners = np.isin(x1[:, :2], (0.0, 1.0)).all(axis=1)
             x1[~corners, :2] += off * random.uniform(-1, 1, (int((~corners).sum()), 2))
             face = Interface(context.library, x1, f1, x2, f2, friction=ROUGH, mu=0.0, modulus=MODULUS, basis=DUAL, weights=COMMITTED,
-                             normals=0, weak_coverage=WEAK_NONE)  # fmt: skip
+                             weak_coverage=WEAK_NONE)  # fmt: skip
             n, n1 = 3 * (len(x1) + len(x2)), x1.size
             b = random.standard_normal((n, n))
             k, host = 50 * np.eye(n) + b @ b.T / n, 0.1 * random.standard_normal(n)

@@ -6,7 +6,6 @@ from itertools import product
 import numpy as np
 
 from cell import ELEMENT, series
-from library import normals_in_question
 from two_bodies import MU, SAME, SPACES, YOUNG, Body, Host, answer, answered, apart, block_on_floor, choices, follow, moved
 
 DRAWN = [(0.004, 0.0), (0.006, 0.0), (0.006, 0.002), (0.006, 0.02)]
@@ -151,8 +150,6 @@ def at_rest(space):
 
 
 def cells():
-    if normals_in_question() == "current":  # which lines do not have
-        return
     kind = {"kind": ELEMENT}
     for space in SPACES:
         cycles = lambda text, space=space: CYCLES if (space, text) == ("sub", "0.1") else None

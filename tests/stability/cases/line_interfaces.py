@@ -6,7 +6,7 @@ import numpy as np
 
 from cases import assembled, layers
 from cell import ELEMENT, Outcome, series
-from library import Interface, normals_in_question, pointer
+from library import DUAL, STANDARD, Interface, pointer
 from lines import RING, STRAIN, grid, turn
 
 PLANE = {"model": STRAIN, "thickness": 1.0}
@@ -36,7 +36,7 @@ def turned_at_once(degrees):
     def run(context):
         outcome, random = Outcome(), np.random.default_rng(20261123)
         q = turn(np.radians(degrees))
-        for basis in (0, 1):
+        for basis in (STANDARD, DUAL):
             x1, f1, x2, f2 = sides(0.02)
             lam = assembled.pressed(x1) * random.uniform(0.5, 1, (len(x1), 1))
             options = OPTIONS | PLANE | {"basis": basis, "turn_max": np.pi}
@@ -59,7 +59,7 @@ def tied(degrees):
 
     def run(context):
         outcome, q = Outcome(), turn(np.radians(degrees))
-        for basis in (0, 1):
+        for basis in (STANDARD, DUAL):
             x1, f1, x2, f2 = sides()
             x1 += [0, 0.2]
             options = {"modulus": 1000.0, "friction": TIED, "basis": basis, "turn_max": np.pi} | PLANE
@@ -101,8 +101,6 @@ def closed_by_a_step(text):
 
 
 def cells():
-    if normals_in_question() == "current":  # which lines do not have
-        return
     kind = {"kind": ELEMENT}
     flat = {"mesh": grid} | PLANE
     ring = {"mesh": lambda *a, lower=(0.0,), **more: grid(*a, lower=(lower[0] + 2,), **more), "model": RING}

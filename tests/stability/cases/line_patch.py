@@ -4,7 +4,6 @@ from itertools import product
 
 from cases.patch_bodies import EPS, ROUNDINGS
 from cell import ELEMENT, series
-from library import normals_in_question
 from scenes import PATCH_FLOOR, PATCH_KAPPA
 from two_bodies import POISSON, SPACES, YOUNG, Body, answered, choices, kappa, pressed
 
@@ -52,8 +51,6 @@ def offset(text):
 
 
 def cells():
-    if normals_in_question() == "current":  # which lines do not have
-        return
     kind = {"kind": ELEMENT}
     yield from series("line patch, 1 line on N", RATIOS, ratio("lower"), quick=(100,), **kind)
     yield from series("line patch, N lines on 1", RATIOS, ratio("upper"), quick=(100,), **kind)

@@ -6,7 +6,6 @@ import numpy as np
 import host
 from cases.patch_meshes import SHIFTS
 from cell import series
-from library import normals_in_question
 from plane_scenes import KINDS, MODELS, SETTLES, block, patch, patch_error, spaces
 from scenes import patch_bound
 
@@ -142,8 +141,6 @@ def on_round(radius):
 
 
 def cells():
-    if normals_in_question() == "current":  # which lines do not have
-        return
     yield from series("plane patch, slivers of this width", SHIFTS, slivers, quick=("1e-11",))
     yield from series("plane patch, kinds", MIXED, kinds, quick=("quad on quad9",))
     yield from series("ring patch, inner radius over width", RADII, beside_the_axis, quick=("1e-9", "0"))

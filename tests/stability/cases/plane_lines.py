@@ -4,7 +4,7 @@ import numpy as np
 
 from cases.assembled import COVERAGES, MU, YOUNG
 from cell import ELEMENT, Outcome, series
-from library import ENDS, GAP, SPACES, Interface, Refused, basis_in_question, fade, mid_nodes, normals_in_question
+from library import ENDS, GAP, SPACES, Interface, Refused, fade, mid_nodes, spaces_in_question
 from scenes import EPS
 
 OPTIONS = {"modulus": YOUNG, "mu": MU}
@@ -20,11 +20,6 @@ BALANCE = 1e-13
 TURNED = 1e-10
 # Central differences with a step of 1e-7 of a line: the second power of the step, and rounding over the step.
 DIFFERENCES, STEP = 1e-7, 1e-7
-
-
-def spaces():
-    """Dual multipliers stand at ends alone."""
-    return range(1 if basis_in_question() == "dual" else len(SPACES))
 
 
 def chain(n, nodes, left, right, y=0.0, from_right=False):
@@ -43,7 +38,7 @@ def off(s):
         try:
             for model, name in MODELS.items():
                 for nodes in ((2, 2), (3, 2), (2, 3), (3, 3)):
-                    for space in spaces():
+                    for space in range(len(spaces_in_question())):
                         label = f"{name}, {nodes[0]} on {nodes[1]}, {SPACES[space]}"
                         check(outcome, context.library, label, (model, nodes, space), s, random)
         except Refused as refusal:
@@ -95,7 +90,7 @@ def coverage(text):
     def run(context):
         outcome = Outcome()
         for nodes in (2, 3):
-            for space in spaces():
+            for space in range(len(spaces_in_question())):
                 strip(outcome, context.library, nodes, space, c)
         return outcome
 
@@ -112,14 +107,14 @@ def strip(outcome, library, nodes, space, c):
     states = interface.states(x1, x2, lam)
     width = 2 * np.spacing(1.0)  # it is itself a difference of coordinates of order one
     bound = width + 1e-13 * c
-    outcome.below(f"{name}: covered length", abs(states["coverage"].sum() - c * fade(c)), bound, "the functions add up to one")
+    outcome.below(f"{name}: covered length", abs(states["coverage"].sum() - c * fade(c, SPACES[space])), bound, "the functions add up to one")
     outcome.true(f"{name}: none is negative", (states["coverage"] >= 0).all(), "positive functions")
     bare = states["coverage"] == 0
     outcome.true(f"{name}: nodes that nothing covers are open", (states["state"][bare] == GAP).all(), "no traction")
     f1_, f2_, rows = interface.residual(x1, x2, lam)
     outcome.true(f"{name}: finite", all(np.isfinite(v).all() for v in (f1_, f2_, rows)), "no NaN")
     outcome.below(f"{name}: sum of all forces", np.abs(f1_.sum(axis=0) + f2_.sum(axis=0)).max(), BALANCE * max(c, EPS), "momentum")
-    error = np.abs(f1_.sum(axis=0) - lam[0] * c * fade(c)).max()
+    error = np.abs(f1_.sum(axis=0) - lam[0] * c * fade(c, SPACES[space])).max()
     outcome.below(f"{name}: force on the strip", error, 4 * bound, "traction times length")
     block = interface.tangent(x1, x2, lam)[-2 * len(x1) :]
     held = np.repeat(~mid_nodes(len(x1), f1, ENDS) if space == 0 else np.full(len(x1), True), 2)
@@ -134,7 +129,7 @@ def beside_the_axis(text):
     def run(context):
         outcome = Outcome()
         for nodes in (2, 3):
-            for space in spaces():
+            for space in range(len(spaces_in_question())):
                 name = f"line{nodes}, {SPACES[space]}"
                 x1, f1 = chain(3, nodes, r, r + 1.0, y=-0.001)
                 x2, f2 = chain(2, 2, r, r + 1.3, from_right=True)
@@ -154,8 +149,6 @@ def beside_the_axis(text):
 
 
 def cells():
-    if normals_in_question() == "current":  # which lines do not have
-        return
     kind = {"kind": ELEMENT}
     much = lambda s: REFUSED if s >= MUCH else None
     yield from series("line interface, nodes off by", OFF, off, quick=(0.1,), may_refuse=much, **kind)

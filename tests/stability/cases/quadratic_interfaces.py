@@ -5,7 +5,7 @@ import numpy as np
 from cases.assembled import COVERAGES, MU, YOUNG
 from cases.pairs import rotation
 from cell import ELEMENT, Outcome, series
-from library import GAP, SPACES, Interface, Refused, basis_in_question, fade, mid_nodes, normals_in_question
+from library import GAP, SPACES, Interface, Refused, fade, mid_nodes, spaces_in_question
 from quadratic import NAMES, grid
 from scenes import EPS
 
@@ -25,11 +25,6 @@ DIFFERENCES, STEP = 1e-7, 1e-7
 PER_OFFSET = 1.5e-4
 
 
-def spaces():
-    """Dual multipliers stand at corners alone."""
-    return range(1 if basis_in_question() == "dual" else len(SPACES))
-
-
 def moved(x, facets, s, random, size):
     """Mid nodes anywhere within s of an edge's length, in all directions."""
     x = x.copy()
@@ -43,7 +38,7 @@ def mid_nodes_off(s):
         outcome = Outcome()
         try:
             for kinds in KINDS_ON_KINDS:
-                for space in spaces():
+                for space in range(len(spaces_in_question())):
                     check(outcome, context.library, kinds, space, s)
         except Refused as refusal:
             outcome.refusal = str(refusal)
@@ -94,7 +89,7 @@ def coverage(text):
     def run(context):
         outcome, library = Outcome(), context.library
         for kind in (8, 9):
-            for space in spaces():
+            for space in range(len(spaces_in_question())):
                 strip(outcome, library, kind, space, c)
         return outcome
 
@@ -112,7 +107,7 @@ def strip(outcome, library, kind, space, c):
     width = 2 * np.spacing(1.0)  # it is itself a difference of coordinates of order one
     total = states["coverage"].sum()
     bound = width + 1e-13 * c
-    outcome.below(f"{name}: covered areas", abs(total - c * fade(c)), bound, "the functions add up to one")
+    outcome.below(f"{name}: covered areas", abs(total - c * fade(c, SPACES[space])), bound, "the functions add up to one")
     outcome.true(f"{name}: none is negative", (states["coverage"] >= 0).all(), "positive functions")
     bare = states["coverage"] == 0
     outcome.true(f"{name}: nodes that nothing covers are open", (states["state"][bare] == GAP).all(), "no traction")
@@ -120,7 +115,7 @@ def strip(outcome, library, kind, space, c):
     finite = all(np.isfinite(v).all() for v in (f1, f2, rows))
     outcome.true(f"{name}: finite", finite, "no NaN")
     outcome.below(f"{name}: sum of all forces", np.abs(f1.sum(axis=0) + f2.sum(axis=0)).max(), BALANCE * max(c, EPS), "momentum")
-    error = np.abs(f1.sum(axis=0) - lam[0] * c * fade(c)).max()
+    error = np.abs(f1.sum(axis=0) - lam[0] * c * fade(c, SPACES[space])).max()
     outcome.below(f"{name}: force on the strip", error, 4 * bound, "traction times area")
     block = interface.tangent(x1, x2, lam)[-3 * len(x1) :]
     held = np.repeat(~mid_nodes(len(x1), grid(1, kind)[1]) if space == 0 else np.full(len(x1), True), 3)
@@ -130,8 +125,6 @@ def strip(outcome, library, kind, space, c):
 
 
 def cells():
-    if normals_in_question() == "current":  # which quadratic facets do not have
-        return
     kind = {"kind": ELEMENT}
     much = lambda s: REFUSED if s >= MUCH else None
     yield from series(

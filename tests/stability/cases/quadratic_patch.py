@@ -11,7 +11,7 @@ import numpy as np
 import host
 from cases.patch_meshes import SHIFTS
 from cell import series
-from library import basis_in_question, normals_in_question
+from library import spaces_in_question
 from scenes import patch, patch_bound, stretch
 from comparisons import multiplier
 
@@ -24,10 +24,6 @@ OFF = (0.0, 0.001, 0.01, 0.05, 0.1, 0.15, 0.2, 0.24, 0.3)
 # Relative error of a multiplier over the mid nodes' offset in edges: 1.5 as measured, with dual multipliers 0.3.
 PER_OFFSET = 2.0
 REFUSED = r"at its node \d|its part between the nodes|volume|Jacobian|inside out"
-
-
-def spaces():
-    return ("corner",) if basis_in_question() == "dual" else ("corner", "sub")
 
 
 def with_cells(scene, upper, lower, space):
@@ -112,7 +108,7 @@ def drawn(s):
             mesh = SecondOrder(kind, n, bend)
             context.folder.mkdir(parents=True, exist_ok=True)
             mesh.write_41(context.folder / f"{kind}.msh")
-            for space in spaces():
+            for space in spaces_in_question():
                 made = with_cells(patch(lower=(0, 0, -0.5), size=(1, 1, 2)), kind, kind, space)
                 made["upper"] = {"type": "gmsh", "file": f"{kind}.msh", "young": 1000, "poisson": 0.3}
                 yield f"{kind}_{space}", made
@@ -121,8 +117,6 @@ def drawn(s):
 
 
 def cells():
-    if normals_in_question() == "current":  # which quadratic facets do not have
-        return
     yield from series("quadratic patch, slivers of this width", SHIFTS, slivers, quick=("1e-11",))
     yield from series("quadratic patch, kinds", MIXED, mixed, quick=("tet10 on hex27",))
     beyond = lambda s: REFUSED if s >= 0.25 else None
