@@ -1375,7 +1375,7 @@ const char *stickslip_status_string(int32_t status);
 int32_t stickslip_options_init(struct stickslip_options *options,
                                uint64_t struct_size);
 
-/// Sets `method` of options to that of the paper's element: standard multipliers, weights of now, normals of the last commit. It is the
+/// Sets `method` of options to that of the paper's element: standard multipliers, normals of the last commit, and weights of now unless displacements are small. It is the
 /// library's and stays; to change a member of it, copy it.
 ///
 /// options: in and out, after `stickslip_options_init`.

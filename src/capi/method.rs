@@ -233,12 +233,8 @@ pub(super) const CHOSEN: stickslip_method = stickslip_method {
 };
 
 /// The paper's element.
-pub(super) static PAPER: stickslip_method = stickslip_method {
-    weights: STICKSLIP_WEIGHTS_CURRENT,
-    multiplier_basis: STICKSLIP_BASIS_STANDARD,
-    normals: STICKSLIP_NORMALS_COMMITTED,
-    ..CHOSEN
-};
+pub(super) static PAPER: stickslip_method =
+    stickslip_method { multiplier_basis: STICKSLIP_BASIS_STANDARD, normals: STICKSLIP_NORMALS_COMMITTED, ..CHOSEN };
 
 /// The host's, or the library's where it has none.
 pub(super) fn read_method(p: *const stickslip_method) -> Result<stickslip_method> {

@@ -119,7 +119,7 @@ pub unsafe extern "C" fn stickslip_options_init(options: *mut stickslip_options,
     guard(|| sized::initialise(options, struct_size, stickslip_options { struct_size, ..DEFAULTS }, "options"))
 }
 
-/// Sets `method` of options to that of the paper's element: standard multipliers, weights of now, normals of the last commit. It is the
+/// Sets `method` of options to that of the paper's element: standard multipliers, normals of the last commit, and weights of now unless displacements are small. It is the
 /// library's and stays; to change a member of it, copy it.
 ///
 /// options: in and out, after `stickslip_options_init`.
