@@ -32,7 +32,7 @@ def refusals(stickslip, scene, np):
 
     def analytic(solid):
         # Beside what the package offers: a ball below the facets.
-        made = stickslip.options.make(solid.options)
+        made, _method = stickslip.options.make(solid.options)
         made.mortar_side, made.shape, made.radius = (stickslip.constants[name] for name in ("MORTAR_ANALYTIC", "SHAPE_SPHERE", "SHAPE_SPHERE"))
         one, two = solid.arguments[0]._struct(), stickslip.Surface(frame, [])._struct()
         slot = library.ffi.new("struct stickslip_interface **")
