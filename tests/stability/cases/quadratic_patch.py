@@ -70,7 +70,7 @@ def slivers(shift):
             made[name] |= {"x": x, "y": x, "z": z}
         return made
 
-    return lambda context: solved(context, ((f"{k}_{s}", scene(k, s)) for k in KINDS for s in spaces()))
+    return lambda context: solved(context, ((f"{k}_{s}", scene(k, s)) for k in KINDS for s in spaces_in_question()))
 
 
 def mixed(text):
@@ -79,7 +79,7 @@ def mixed(text):
 
     def run(context):
         size = {"upper_cells": (2, 2, 1), "lower_cells": (3, 3, 1)}
-        return solved(context, ((s, with_cells(patch(**size), upper, lower, s)) for s in spaces()))
+        return solved(context, ((s, with_cells(patch(**size), upper, lower, s)) for s in spaces_in_question()))
 
     return run
 
