@@ -72,16 +72,7 @@ impl<'a> Case<'a> {
         if mortar.n_facets > 0 {
             (mortar.facet_offsets, mortar.facet_nodes) = (offsets2.as_ptr(), nodes2.as_ptr());
         }
-        let mut options = sized!(stickslip_options);
-        ok!(stickslip_options_init(&mut options, size_of::<stickslip_options>() as u64));
-        ok!(stickslip_options_paper(&mut options));
-        // SAFETY: the library's.
-        let mut method = unsafe { *options.method };
-        method.augmentation = 1.0;
-        method.weak_coverage = STICKSLIP_WEAK_COVERAGE_NONE;
-        method.slip = slip_option(of);
-        method.row_scale = STICKSLIP_ROW_SCALE_NONE;
-        method.new_contact = STICKSLIP_NEW_CONTACT_KEEP;
+        let (mut options, mut method) = golden_options(of);
         method.form = form;
         method.quadrature = STICKSLIP_QUADRATURE_DEGREE_10;
         options.model = match of["model"].as_str().unwrap() {

@@ -282,6 +282,22 @@ pub(super) fn facets(v: &Value) -> Vec<Vec<i64>> {
     v.as_array().unwrap().iter().map(row).collect()
 }
 
+/// What golden vectors are computed with, and the method, which the options are to point to: the paper's element, rows as it prints
+/// them, where each covered node has a multiplier of its own.
+pub fn golden_options(case: &Value) -> (stickslip_options, stickslip_method) {
+    let mut options = sized!(stickslip_options);
+    ok!(stickslip_options_init(&mut options, size_of::<stickslip_options>() as u64));
+    ok!(stickslip_options_paper(&mut options));
+    // SAFETY: the library's.
+    let mut method = unsafe { *options.method };
+    method.augmentation = 1.0;
+    method.weak_coverage = STICKSLIP_WEAK_COVERAGE_NONE;
+    method.slip = slip_option(case);
+    method.row_scale = STICKSLIP_ROW_SCALE_NONE;
+    method.new_contact = STICKSLIP_NEW_CONTACT_KEEP;
+    (options, method)
+}
+
 impl Golden {
     fn new(case: &Value, form: i32, quadrature: i32) -> Golden {
         Golden::with_basis(case, form, quadrature, STICKSLIP_BASIS_STANDARD)
@@ -325,16 +341,7 @@ impl Golden {
         two.coordinates = x2.as_ptr();
         (two.facet_offsets, two.facet_nodes) = (offsets2.as_ptr(), nodes2.as_ptr());
         two.equations = equations[x1.len()..].as_ptr();
-        let mut options = sized!(stickslip_options);
-        ok!(stickslip_options_init(&mut options, size_of::<stickslip_options>() as u64));
-        ok!(stickslip_options_paper(&mut options));
-        // SAFETY: the library's.
-        let mut method = unsafe { *options.method };
-        method.augmentation = 1.0;
-        method.weak_coverage = STICKSLIP_WEAK_COVERAGE_NONE;
-        method.slip = slip_option(case);
-        method.row_scale = STICKSLIP_ROW_SCALE_NONE;
-        method.new_contact = STICKSLIP_NEW_CONTACT_KEEP;
+        let (mut options, mut method) = golden_options(case);
         choose(&mut options, &mut method);
         options.method = &raw const method;
         let frictional = options.friction != STICKSLIP_FRICTION_NONE;
