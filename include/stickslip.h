@@ -276,7 +276,7 @@
 /// all while the surfaces are apart: no law, row -lambda / r; the former's tangent block is its diagonal.
 #define STICKSLIP_SHORTCUT_UNCOVERED 8
 
-/// Dual, but with STICKSLIP_SPACE_SUB standard. Default.
+/// Dual, but with STICKSLIP_SPACE_SUB or STICKSLIP_WEIGHTS_PERSISTENT standard. Default.
 #define STICKSLIP_BASIS_AUTO 0
 
 /// Standard shape functions for the multiplier (the paper's): tractions oscillate beside edges and on curved surfaces.

@@ -62,7 +62,7 @@ pub const STICKSLIP_SHORTCUT_APART: i32 = 4;
 /// Nodes that nothing can cover before the next commit (no mortar facet passes the filters with a facet around them), and
 /// all while the surfaces are apart: no law, row -lambda / r; the former's tangent block is its diagonal.
 pub const STICKSLIP_SHORTCUT_UNCOVERED: i32 = 8;
-/// Dual, but with STICKSLIP_SPACE_SUB standard. Default.
+/// Dual, but with STICKSLIP_SPACE_SUB or STICKSLIP_WEIGHTS_PERSISTENT standard. Default.
 pub const STICKSLIP_BASIS_AUTO: i32 = 0;
 /// Standard shape functions for the multiplier (the paper's): tractions oscillate beside edges and on curved surfaces.
 /// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); condensation.

@@ -1,6 +1,6 @@
 //! What an interface remembers of t_n: configuration, weights, normals, areas, coverage, slip (docs/formulation.md 6.1).
 //! It changes only on commit, rolls back exactly, and travels as flat arrays (`restart.rs`). Without friction there is no
-//! slip to measure: no gaps (but where overlaps of t_n count as closed), no slip, and weights only where they are frozen. Tied surfaces keep the gap, that of their
+//! slip to measure: no gaps (but where overlaps of t_n count as closed, or copies of nodes are told apart by them), no slip, and weights only where they are frozen. Tied surfaces keep the gap, that of their
 //! facets too (`facet_gaps.rs`), and no slip.
 
 use super::active::Active;
@@ -22,8 +22,10 @@ pub enum Keeps {
     Gap,
     /// The frozen weights alone: without friction.
     Weights,
-    /// The frozen weights and the gaps of t_n, whose overlaps count as closed: without friction.
-    Overlaps,
+    /// The frozen weights and the gaps of t_n, without friction: overlaps count as closed, or copies of a node are told apart.
+    GapAndWeights,
+    /// The gaps of t_n, without friction, weights of now: copies of a node are told apart.
+    GapAlone,
     /// Nothing: without friction, weights of now.
     Nothing,
 }
@@ -31,9 +33,11 @@ pub enum Keeps {
 impl Keeps {
     /// What an interface with these options needs.
     pub fn of(options: &Options) -> Keeps {
+        let tells_copies = options.tells_copies_apart();
         match (options.friction.law().remembers, options.effective_weights()) {
+            (Remembers::Nothing, Weights::Current) if tells_copies => Keeps::GapAlone,
             (Remembers::Nothing, Weights::Current) => Keeps::Nothing,
-            (Remembers::Nothing, Weights::Persistent) => Keeps::Overlaps,
+            (Remembers::Nothing, weights) if tells_copies || weights == Weights::Persistent => Keeps::GapAndWeights,
             (Remembers::Nothing, _) => Keeps::Weights,
             (Remembers::FirstGap, _) => Keeps::Gap,
             (Remembers::Slip, _) => Keeps::Slip,
@@ -44,9 +48,14 @@ impl Keeps {
     pub fn gaps_and_slips(self) -> [usize; 2] {
         match self {
             Keeps::Slip => [1, 1],
-            Keeps::Gap | Keeps::Overlaps => [1, 0],
+            Keeps::Gap | Keeps::GapAndWeights | Keeps::GapAlone => [1, 0],
             Keeps::Weights | Keeps::Nothing => [0, 0],
         }
+    }
+
+    /// Whether the pairs of t_n are kept, with their weights.
+    pub fn pairs(self) -> bool {
+        !matches!(self, Keeps::Nothing | Keeps::GapAlone)
     }
 
     /// Whether gaps of facets are kept.
@@ -85,7 +94,7 @@ pub struct History {
     pub areas: Vec<f64>,
     /// m_A(t_n): covered area [L^2].
     pub coverage: Vec<f64>,
-    /// g[n_n, x_n] [L^3]; empty without friction, unless its overlaps count as closed. Tied: the part of the first gap that turns with no facet.
+    /// g[n_n, x_n] [L^3]; empty without friction, unless its overlaps count as closed or copies of nodes are told apart by it. Tied: the part of the first gap that turns with no facet.
     pub gap: Vec<Vec3>,
     /// Tied: the part of the first gap that turns with its facet; else empty.
     pub facet_gaps: FacetGaps,
@@ -107,7 +116,7 @@ impl History {
         // There is room for as many: zeros are there.
         self.coverage.iter_mut().zip(sums).for_each(|(to, (coverage, _))| *to = *coverage);
         self.gap.iter_mut().zip(sums).for_each(|(to, (_, gap))| *to = *gap);
-        if self.keeps != Keeps::Nothing {
+        if self.keeps.pairs() {
             match has_parents {
                 false => std::mem::swap(&mut self.pairs, &mut active.pairs),
                 true => std::mem::swap(&mut self.parents, &mut active.parents),

@@ -264,15 +264,16 @@ impl Options {
     }
 
     /// With what is wished, and the best of the rest: dual multipliers, weights and normals of now, as far as they go with
-    /// the other options. Where points decide, friction needs weights that stay within a step.
+    /// the other options. Where points decide, friction needs weights that stay within a step. With persistent weights dual
+    /// multipliers, which are below 0 somewhere, make overlaps of surfaces that turn away from each other.
     #[must_use]
     pub fn settle(self, wishes: Wishes) -> Options {
         let stays = self.decision != Decision::Nodes && self.friction != Friction::None;
         let weights = wishes.weights.unwrap_or(if stays { Weights::Committed } else { Weights::Current });
-        let basis = wishes.basis.unwrap_or(match self.space {
-            MultiplierSpace::Corner => MultiplierBasis::Dual,
-            MultiplierSpace::Sub => MultiplierBasis::Standard,
-        });
+        let all_nodes = self.space == MultiplierSpace::Sub;
+        let standard = all_nodes || weights == Weights::Persistent;
+        let choice = if standard { MultiplierBasis::Standard } else { MultiplierBasis::Dual };
+        let basis = wishes.basis.unwrap_or(choice);
         let settled = Options { weights, basis, normals_yield: wishes.normals.is_none(), ..self };
         Options { normals: wishes.normals.unwrap_or(settled.best_normals()), ..settled }
     }
@@ -390,6 +391,12 @@ impl Options {
             (0.0, MultiplierBasis::Dual) => WEAK_COVERAGE_OF_DUAL,
             (part, _) => part,
         }
+    }
+
+    /// Whether copies of a node on a crease are told apart by what they have opposite. Dual gaps of all of them are that of the one
+    /// point.
+    pub fn tells_copies_apart(&self) -> bool {
+        self.basis == MultiplierBasis::Dual && self.effective_weak_coverage() > 0.0
     }
 
     /// The slip measure in force: with frozen weights the objective one measures nothing (both its

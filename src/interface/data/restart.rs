@@ -242,7 +242,7 @@ fn check_header<'a>((integers, reals): (&'a [i64], &[f64]), host: &Host) -> Resu
     if !rest.is_empty() {
         return mismatch(text!("integers holds {} entries after its last list", rest.len()));
     }
-    if host.keeps == Keeps::Nothing && !facets.is_empty() {
+    if !host.keeps.pairs() && !facets.is_empty() {
         return mismatch("integers names pairs; a history without friction, with weights of now, has none");
     }
     Ok((commits, facets))

@@ -36,6 +36,11 @@ impl Step {
             self.room = now;
         }
     }
+
+    /// nu_A(t_n): of a copy that carries others that of the edge.
+    pub fn committed_normal(&self, a: usize) -> Vec3 {
+        self.pairing.corners.normal(a).unwrap_or(self.history.normals[a])
+    }
 }
 
 /// Averaged normals of the non-mortar surface at some positions.
@@ -84,7 +89,7 @@ impl<'a, const N: usize> Given<'a, N> {
 
     /// Whether a node acts without friction in this step, since a copy of it may be in contact, too.
     pub fn has_copy_in_contact(self, a: usize) -> bool {
-        self.step.pairing.frictionless.get(a).is_some_and(|f| *f)
+        self.step.pairing.corners.frictionless.get(a).is_some_and(|f| *f)
     }
 
     /// nu_A: that of now where it follows the motion, else the host's or the committed one; normalised within the free
@@ -96,7 +101,7 @@ impl<'a, const N: usize> Given<'a, N> {
     /// nu_A at t_n: the host's or the committed one, normalised within the free directions.
     pub fn normal_of_step(self, a: usize) -> Result<Vec3> {
         let host = self.setup.nodes.normals.as_ref();
-        self.free_normal(a, host.map_or(self.history().normals[a], |n| n[a]))
+        self.free_normal(a, host.map_or_else(|| self.step.committed_normal(a), |n| n[a]))
     }
 
     /// A node's normal, normalised within its free directions.
@@ -158,7 +163,11 @@ impl<'a, const N: usize> Given<'a, N> {
     }
 
     /// The covered area at and below which a node counts as uncovered [L^2].
+    /// Of one that stays open in this step no area is enough.
     pub fn least_coverage(self, a: usize) -> f64 {
+        if self.step.pairing.corners.is_open(a) {
+            return f64::INFINITY;
+        }
         self.setup.options.coverage_min * self.history().areas[a]
     }
 

@@ -4,7 +4,7 @@
 use super::analytic;
 use super::boxes::Aabb;
 use super::candidates::KeptTree;
-use super::corners;
+use super::corners::Corners;
 use super::depth;
 use super::filter::{FacetFilter, Filter, Side};
 use super::hybrid;
@@ -31,8 +31,8 @@ pub struct Pairing {
     pub carriers: Vec<Vec<Carrier>>,
     /// Per non-mortar node, whether it keeps nu(t_n) although the others follow the motion; empty where none does.
     pub keeps_normal: Vec<bool>,
-    /// Per non-mortar node, whether a copy of it keeps it from having friction; empty where that is so nowhere.
-    pub frictionless: Vec<bool>,
+    /// What copies of nodes on creases do.
+    pub corners: Corners,
 }
 
 /// Near a knife's edge the sum s of the corner normals has next to no length, and Dnu grows like 1 / |s|. A node where |s|
@@ -47,10 +47,13 @@ impl Pairing {
         // Where the normals follow the motion, so does which facets look at each other (`candidates.rs`).
         let follows = setup.options.follows_normals();
         let coverable = reach::coverable(&setup.nonmortar, filter.as_ref().filter(|_| !follows), pairs)?;
-        let carriers = carriers(setup, history, &coverable)?;
-        let keeps_normal = if follows { on_knife_edges(&setup.nonmortar, &history.x1)? } else { Vec::new() };
-        let frictionless = corners::without_friction(setup, history, &coverable)?;
-        Ok(Pairing { filter, coverable, carriers, keeps_normal, frictionless })
+        let mut carriers = carriers(setup, history, &coverable)?;
+        let corners = Corners::settle((setup, history), &coverable, &mut carriers)?;
+        let mut keeps_normal = if follows { on_knife_edges(&setup.nonmortar, &history.x1)? } else { Vec::new() };
+        if follows {
+            corners.normals.iter().for_each(|&(a, _)| keeps_normal[a] = true);
+        }
+        Ok(Pairing { filter, coverable, carriers, keeps_normal, corners })
     }
 
     /// That of a history which is not of now; its positions may be refused.

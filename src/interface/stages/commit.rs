@@ -96,7 +96,7 @@ pub fn settled_at(
             history.facet_gaps.take(surfaces, active, options.rule, sums)?;
         }
         history.fill(active, nonmortar.parents.is_some(), sums)?;
-        is_active = keeps == Keeps::Nothing;
+        is_active = !keeps.pairs();
     }
     if let Some(parents) = &nonmortar.parents {
         check_parents(surfaces, (x1, x2))?;
@@ -130,7 +130,7 @@ pub fn with_the_same_weights(
 ) -> Result<Settled> {
     history.move_to(old, x1, x2)?;
     // Also where mu is 0 at every node: it may be set before the next step. Tied nodes keep their first gap.
-    if old.keeps == Keeps::Slip {
+    if matches!(old.keeps, Keeps::Slip | Keeps::GapAndWeights) {
         assemble(surfaces, old.weighted(surfaces), (x1, x2), sums)?;
         history.gap.iter_mut().zip(sums).for_each(|(to, (_, gap))| *to = *gap);
     }

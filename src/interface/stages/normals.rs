@@ -44,7 +44,7 @@ fn find<const N: usize>(setup: &Setup<N>, step: &Step, x1: &[Vec3], now: &mut No
     memory::grow(&mut now.nu, now.sums.len())?;
     for (a, sum) in now.sums.iter().enumerate() {
         let kept = step.pairing.keeps_normal.get(a).is_some_and(|kept| *kept);
-        now.nu.store(if kept { step.history.normals[a] } else { nodal_normal(*sum, a)? })?;
+        now.nu.store(if kept { step.committed_normal(a) } else { nodal_normal(*sum, a)? })?;
     }
     Ok(())
 }

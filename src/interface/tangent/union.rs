@@ -3,7 +3,6 @@
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::checksum::of_words;
-use crate::interface::data::history::Keeps;
 use crate::interface::data::options::Weights;
 use crate::interface::data::pairs::{PairRecord, ParentRecord};
 use crate::interface::data::surface::frames;
@@ -189,7 +188,7 @@ pub fn possible_pairs<const N: usize>(
             Filter::Facets(filter) => {
                 // Those of t_n are sought as those of now: whether their weights were left out, because the surfaces
                 // were apart, does not matter then, and nothing is integrated for a pattern.
-                let once = h.keeps == Keeps::Nothing || (x1, x2) == (&h.x1[..], &h.x2[..]);
+                let once = !h.keeps.pairs() || (x1, x2) == (&h.x1[..], &h.x2[..]);
                 for (x1, x2) in [(x1, x2), (&h.x1[..], &h.x2[..])].into_iter().take(if once { 1 } else { 2 }) {
                     let (frames, tree) = (frames(one, x1)?, tree.at(two, x2)?);
                     let options = &given.setup.options;
