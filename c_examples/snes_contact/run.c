@@ -226,7 +226,7 @@ static PetscErrorCode give_up(Model *model, const Run *run, int *exit_code)
   else
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                            "snes_contact: not converged beyond t = %.6g, not even by a step of %.2g: %s. %s See "
-                           "scenes/README.md.\n",
+                           "scenes/convergence.md.\n",
                            (double)run->past.t_last, (double)(model->physics.t - run->past.t_last),
                            model->solve.newton.why, held));
   PetscFunctionReturn(PETSC_SUCCESS);

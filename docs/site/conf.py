@@ -17,7 +17,7 @@ extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "heade
 root_doc = "docs/site/index"
 include_patterns = [
     "README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "SUPPORT.md", "docs/*.md", "docs/site/*.md", "docs/site/*.rst",
-    "c_examples/scenes/README.md", "hosts/README.md", "python/README.md", "packaging/README.md", "packaging/xsdk.md",
+    "c_examples/scenes/*.md", "hosts/README.md", "python/README.md", "packaging/README.md", "packaging/xsdk.md",
     "benches/README.md", "studies/README.md", "tests/README.md", "tests/acceptance/README.md", "fuzz/README.md",
 ]
 myst_heading_anchors = 4

@@ -16,7 +16,7 @@ _FIRST_WORD = re.compile(r"^(Errors|Cost|Owner): ")
 
 
 def declarations(header):
-    """(kind, comment lines, code) of each constant, struct and function."""
+    """(kind, comment lines, code) of each constant, struct, type of a function, and function."""
     lines = iter(header[header.index("*/") + 2:].splitlines())
     comment = []
     for line in lines:
@@ -40,7 +40,8 @@ def declarations(header):
             code = line.strip()
             while not code.endswith(";"):
                 code += " " + next(lines).strip()
-            yield "function", comment, code.rstrip(";")
+            is_type = code.startswith("typedef ")
+            yield "type" if is_type else "function", comment, code.removeprefix("typedef ").rstrip(";")
             comment = []
         elif not line.strip():
             comment = []
@@ -61,7 +62,7 @@ def prose(comment):
 def escaped(text):
     """Names in backquotes become code; what reStructuredText would read as markup is text."""
     parts = re.split(r"(`[^`]*`)", text)
-    return "".join(f"`{part}`" if part.startswith("`") else re.sub(r"([\\*|_])(?=\W|$)", r"\\\1", part) for part in parts)
+    return "".join(f"`{part}`" if part.startswith("`") else re.sub(r"([\\*_])(?=\W|$)|\|", r"\\\g<0>", part) for part in parts)
 
 
 def members(body):
@@ -82,8 +83,8 @@ def text(header):
         indented = ["", *("   " + line for line in prose(comment)), ""]
         if kind == "macro":
             out += [f".. c:macro:: {code[0]}", "", f"   = {code[1]}", *indented]
-        elif kind == "function":
-            out += [f".. c:function:: {code}", *indented]
+        elif kind in ("function", "type"):
+            out += [f".. c:{kind}:: {code}", *indented]
         else:
             name, body = code
             out += [f".. c:struct:: {name}", *indented]

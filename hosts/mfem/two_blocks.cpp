@@ -21,7 +21,7 @@ using mfem::SparseMatrix;
 using mfem::Vector;
 
 constexpr int DIM = 3;
-// A body's residual over its own forces; the contact over scales of its own: docs/plug_in.md, section 6.
+// A body's residual over its own forces; the contact over scales of its own: docs/host_convergence.md.
 constexpr double RTOL = 2e-11, CONTACT_RTOL = 1e-10;
 constexpr double FRICTION = 0.3;
 constexpr int MAX_ITERATIONS = 25;

@@ -2,7 +2,7 @@
 
 The problem and the options are those of c_examples/petsc_block.c: -n, -steps, -friction, -load, -push, and PETSc's own; besides
 -poisson, and -output FILE, which receives a row X Y Z ux uy uz for each node. It runs on any number of processes. Each has a share
-of the cells and a part of the interface (docs/plug_in.md, section 9):
+of the cells and a part of the interface (docs/host_parallel.md):
 
     python petsc4py_block.py -n 6
     mpiexec -n 2 python petsc4py_block.py -n 6
@@ -29,7 +29,7 @@ RTOL, CONTACT_RTOL = 1e-11, 1e-10
 OWN, ELSEWHERE = stickslip.constants["NODE_OWN"], stickslip.constants["NODE_ELSEWHERE"]
 # Of the time, in which pressing takes 1 and pushing 1.
 SHORTEST = 1e-3
-# Rings of facets that a part has around its own nodes: docs/plug_in.md, section 9.
+# Rings of facets that a part has around its own nodes: docs/host_parallel.md.
 RINGS = 3
 STATES = tuple(stickslip.constants["STATE_" + name] for name in ("GAP", "STICK", "SLIP"))
 

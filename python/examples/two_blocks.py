@@ -18,7 +18,7 @@ import stickslip
 
 FRICTION, STEPS, MAX_ITERATIONS = 0.3, 4, 25
 HEIGHT = 0.8  # of the surfaces in contact
-# A body's residual over its own forces; the contact over scales of its own: docs/plug_in.md, section 6.
+# A body's residual over its own forces; the contact over scales of its own: docs/host_convergence.md.
 RTOL, CONTACT_RTOL = 2e-11, 1e-10
 
 

@@ -198,7 +198,7 @@ pub struct stickslip_method {
     /// turn since the first configuration, as of tied surfaces with offsets; other tied ones may turn as they like. With friction,
     /// whatever the normals, the sides may spin no further against each other about their normal, for slip is the chord of the way:
     /// the moment of friction is cos(spin / 2) of what it must be. At most pi, which refuses nothing;
-    /// 0 (default): pi / 9, 20 degrees. What a turn below it costs: docs/plug_in.md.
+    /// 0 (default): pi / 9, 20 degrees. What a turn below it costs: docs/host_steps.md.
     pub turn_max: f64,
 }
 

@@ -2,7 +2,7 @@
 dimensions, against the same with linear cells; the press fit without multipliers.
 
 In one layer of cells in plane strain the channel reaches beyond the slider's sides: where both end in one plane and the
-surfaces are not parallel, the covered part has a kink in each motion across it (docs/plug_in.md 3)."""
+surfaces are not parallel, the covered part has a kink in each motion across it (docs/host_quadratic.md)."""
 
 import numpy as np
 

@@ -52,7 +52,7 @@ def body(result, name="ball", step=-1):
 
 
 def face(verdicts, driver):
-    """The recipe of scenes/README.md: a bar whose face is tied to a plate that a moment turns, by half a radian a step. The forces of the tie
+    """The recipe of scenes/loads.md: a bar whose face is tied to a plate that a moment turns, by half a radian a step. The forces of the tie
     turn with the plate, in systems without multipliers, too: the matrix knew that only where it had entries of the weights' derivatives, which
     ties have not, and Newton's method took two hundred times as many iterations."""
     scene = {"schema": 1, "bodies": ["bar", "plate"],

@@ -83,6 +83,6 @@ fn every_link_of_a_document_leads_somewhere() {
 fn links_that_lead_nowhere_are_noticed() {
     let document = root().join("docs/planted.md");
     let text = "# A `b`, c\n[x](gone.md) [y](plug_in.md#no-such-heading) [z](#a-b) [good](#a-b-c), ![p](figures/block.png)\n\
-                ```\n[code](is.not)\n```\n[web](https://example.org) [good](plug_in.md#7-refusals)";
+                ```\n[code](is.not)\n```\n[web](https://example.org) [good](host_refusals.md#statuses)";
     assert_eq!(broken(&document, text), ["gone.md", "plug_in.md#no-such-heading", "#a-b"]);
 }

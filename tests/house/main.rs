@@ -1,5 +1,5 @@
 //! The order of the house, read from its files: arrows between modules, rooms of the driver, citations, the header as a
-//! reference.
+//! reference, pages that are short.
 
 #[path = "../support/mod.rs"]
 mod support;
@@ -8,4 +8,5 @@ mod citations;
 mod driver_rooms;
 mod layers;
 mod links;
+mod pages;
 mod reference;

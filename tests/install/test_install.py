@@ -117,7 +117,8 @@ def test_tree(tree):
     listed = (tree.prefix / "share/stickslip/installed.txt").read_text().splitlines()
     expect(files == sorted(listed), f"the uninstall list names the {len(files)} files that are there")
     for name in ("include/stickslip.h", "include/stickslip.f90", "lib/libstickslip.a", "lib/pkgconfig/stickslip.pc",
-                 "lib/cmake/stickslip/stickslip-config.cmake", "share/doc/stickslip/docs/plug_in.md"):
+                 "lib/cmake/stickslip/stickslip-config.cmake", "share/doc/stickslip/docs/plug_in.md",
+                 "share/doc/stickslip/docs/host_convergence.md", "share/doc/stickslip/c_examples/scenes/interface.md"):
         expect(name in files, name)
     check_named_files(tree.prefix / "share/doc/stickslip", tree.prefix / "include")
     link = tree.prefix / "lib/libstickslip.so"
@@ -179,10 +180,10 @@ def test_documents(tree):
                  "fortran": ("gfortran -Wall $PREFIX/include/stickslip.f90", "block.f90")}
     examples = [p for suffix in ("c", "f90") for p in (ROOT / "c_examples").rglob(f"*.{suffix}")]
     sources = [squeezed(p.read_text()) for p in examples]
+    guide = "".join(p.read_text() for p in [ROOT / "docs/plug_in.md", *(ROOT / "docs").glob("host_*.md")])
+    expect(guide.count("```c\n") >= 20 and "```fortran" in guide and "```cpp" in guide, "the guide has its code blocks")
     for document in sorted((ROOT / "docs").glob("*.md")):
         text = document.read_text()
-        if document.name == "plug_in.md":
-            expect(text.count("```c\n") >= 4 and "```fortran" in text and "```cpp" in text, "the guide has its code blocks")
         for match in re.finditer(r"```(c|cpp|fortran)\n(.*?)```\n(?:\n```text\n(.*?)```)?", text, flags=re.S):
             language, block, output = match.groups()
             where = f"{document.name}, line {text[:match.start()].count(chr(10)) + 1}"

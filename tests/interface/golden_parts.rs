@@ -1,5 +1,5 @@
 //! The golden interfaces cut into parts: handles that each own some of the nodes add up to the golden residuals and tangents of
-//! the whole (docs/plug_in.md, "Parts that own nodes").
+//! the whole (docs/host_parallel.md, "Parts that own nodes").
 
 use super::dual::{self, dual};
 use super::golden::*;

@@ -1,4 +1,4 @@
-//! An interface in parts, each with a handle of its own (docs/plug_in.md, "Many ranks"): what the parts have adds up to what the
+//! An interface in parts, each with a handle of its own (docs/host_parallel.md, "Parts that own nodes"): what the parts have adds up to what the
 //! whole has, on random partitions of random curved interfaces, over several steps.
 
 use super::plan;

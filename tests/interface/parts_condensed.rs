@@ -1,4 +1,4 @@
-//! Condensed systems of parts (docs/plug_in.md, "Parts that own nodes"): multipliers are eliminated where they act, and residuals and
+//! Condensed systems of parts (docs/host_parallel.md, "Parts that own nodes"): multipliers are eliminated where they act, and residuals and
 //! pieces of the parts add up to those of the whole.
 
 use super::parts::{RINGS, RINGS_OF_CARRIERS, ROUNDING, Recipe, Scene, over, recipes};

@@ -1,4 +1,4 @@
-//! What a host can do that factors symmetric matrices alone (docs/plug_in.md 4): frozen weights make tangents symmetric where
+//! What a host can do that factors symmetric matrices alone (docs/host_symmetric.md): frozen weights make tangents symmetric where
 //! no node slips, with the augmented form, and P^T K P takes the step of the condensed system.
 
 use super::condensed::of_parents;
@@ -104,7 +104,7 @@ fn host(n: usize) -> (DMatrix<f64>, DVector<f64>) {
     (&a * a.transpose() + DMatrix::identity(n, n), DVector::from_fn(n, |_, _| random.next()))
 }
 
-/// The step from the condensed matrix as it is, and from P^T K P + Q, as docs/plug_in.md 4 says. How many nodes are covered and open.
+/// The step from the condensed matrix as it is, and from P^T K P + Q, as docs/host_symmetric.md says. How many nodes are covered and open.
 fn steps_agree<const N: usize>(s: &mut Scene<N>, what: &str) -> usize {
     let (n1, n) = (s.x1.len(), 3 * (s.x1.len() + s.x2.len()));
     let (k, own) = host(n);

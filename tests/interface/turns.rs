@@ -197,7 +197,7 @@ fn a_turn_in_one_step_is_right_after_a_step_at_rest_or_refused() {
     }
 }
 
-/// The table of docs/plug_in.md: how wrong the pressure is where such a step ends, before the next one.
+/// The table of docs/host_steps.md: how wrong the pressure is where such a step ends, before the next one.
 #[test]
 fn what_a_turn_costs_in_the_step_itself() {
     let base = Options::paper(Stiffness::Modulus(100.0));

@@ -1,4 +1,4 @@
-/* Sharp edges of the non-mortar surface: the library lists a node there once for each side (docs/plug_in.md 14), and each copy has a
+/* Sharp edges of the non-mortar surface: the library lists a node there once for each side (docs/host_edges.md), and each copy has a
  * normal and multipliers of its own. Every rank asks it about the nodes that are at home here, with the facets around them. */
 #include "contact/packet.h"
 

@@ -1,4 +1,4 @@
-/* The non-mortar side of an interface, cut into parts at its nodes' homes: each rank gets its own (docs/plug_in.md, "Parts that own
+/* The non-mortar side of an interface, cut into parts at its nodes' homes: each rank gets its own (docs/host_parallel.md, "Parts that own
  * nodes").
  *
  * A part has the facets around its nodes, those around these, and so on: rings. How many the library needs depends on what

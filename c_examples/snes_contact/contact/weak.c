@@ -13,7 +13,7 @@ static const PetscReal NONE = 1e-6;
 /* Covered up to this counts as wholly covered: rounding, and the rule's error on facets that are no parallelograms. */
 static const PetscReal WHOLE = 0.99;
 
-/* What nobody can be carried with (docs/plug_in.md). */
+/* What nobody can be carried with (docs/host_edges.md). */
 static PetscBool goes_with(const Interface *interface)
 {
   const stickslip_method *method = &interface->method;

@@ -77,7 +77,7 @@ class Inspection:
 
     def check_step(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, modulus: float = 0.0, least_traction: float = 0.0,
                    tolerance: float = 1e-10, sums: ArrayLike | None = None) -> SimpleNamespace:
-        """Asks whether a step may count, before its commit: :meth:`equilibrium`, judged as docs/plug_in.md says.
+        """Asks whether a step may count, before its commit: :meth:`equilibrium`, judged as docs/host_convergence.md says.
 
         Raises :class:`stickslip.StepRefused` where the contact is not in equilibrium to ``tolerance``, bodies really overlap or are apart
         where they press, or normals of the step's start are too far off; warns with :class:`stickslip.StepWarning` of the last

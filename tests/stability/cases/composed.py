@@ -112,7 +112,7 @@ def ellipse(text):
 
 
 def symmetric(off):
-    """The step of a host that factors symmetric matrices alone (docs/plug_in.md 4) on quadratic facets."""
+    """The step of a host that factors symmetric matrices alone (docs/host_symmetric.md) on quadratic facets."""
 
     def run(context):
         outcome = Outcome()

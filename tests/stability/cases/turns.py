@@ -7,7 +7,7 @@ import host
 from cell import series
 
 DEGREES = (5, 15, 30, 60, 90, 180)
-# A step below the limit leaves 1e-4 of the pressure without friction (docs/plug_in.md); a turn of many steps as much, for
+# A step below the limit leaves 1e-4 of the pressure without friction (docs/host_steps.md); a turn of many steps as much, for
 # each of them starts from the rest of the one before.
 SAME_PRESSURE = 1e-4
 # Where all stick on a curve, what the wrong normals make of the gaps between chords stays, with the square of a step's
