@@ -71,10 +71,7 @@ def solve(driver, scene, label, *options, **more):
 
 
 def closed(verdicts, driver, shape, base, gap, friction, contact=None, ranks=1, note=""):
-    """By force, then by the closing that this ended with. A cube's corner has a node on each of its faces: with dual multipliers
-    these go from slip to gap and back for ever."""
-    if shape == "cube":
-        contact = {"basis": "standard"} | (contact or {})
+    """By force, then by the closing that this ended with."""
     label = f"{shape}_{base}_{gap}_{friction}{note}"
     compared(verdicts, driver, label, touching(shape, base, scaled(gap, shape), friction, contact=contact), shape, ranks)
 

@@ -5,13 +5,14 @@
 //! be in contact, too; one that is alone in contact has friction as any other node.
 //!
 //! Where they have the same face opposite, dual gaps are the gap of the one point, in all copies: one condition, several multipliers.
-//! A side that stands off that face stays open where another side lies on it. Where all stand off, the edge itself touches: one copy
-//! carries the others, with the mean of their normals.
+//! A side that stands off that face stays open where another side lies on it. Where all stand off, the edge itself touches, and where
+//! all lie on it, it is pressed flat: one copy carries the others, with the mean of their normals.
 
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::history::History;
 use crate::interface::data::setup::Setup;
+use crate::interface::pairing::filter::LEAST_OPPOSITION;
 use crate::interface::pairing::weak::Carrier;
 use crate::memory::{self, Store, Stored};
 use crate::normal::SMALLEST_SUM;
@@ -32,8 +33,25 @@ pub struct Corners {
     pub frictionless: Vec<bool>,
     /// Per node, whether it stays open, since a copy lies on what it would meet; empty where none does.
     pub open: Vec<bool>,
-    /// Copies that carry others, in ascending order, each with its nu of the step.
-    pub normals: Vec<(usize, Vec3)>,
+    /// Edges of which one copy carries the others.
+    pub edges: Vec<Edge>,
+}
+
+/// Copies of a node that touch as one.
+#[derive(Debug)]
+pub struct Edge {
+    /// All of them; the first one carries the others.
+    pub sides: Vec<usize>,
+    /// nu of the step, of all of them.
+    pub normal: Vec3,
+}
+
+impl Edge {
+    /// The mean of the sides' normals; none where they cancel.
+    pub fn mean(sides: &[usize], normal: impl Fn(usize) -> Vec3) -> Option<Vec3> {
+        let sum: Vec3 = sides.iter().map(|&a| normal(a)).sum();
+        (sum.norm() > SMALLEST_SUM).then(|| sum.normalize())
+    }
 }
 
 impl Corners {
@@ -51,10 +69,16 @@ impl Corners {
         let touches = |a: usize| coverable[a] && h.coverage[a] > least * h.areas[a] && setup.has_multiplier(a);
         if setup.options.tells_copies_apart() {
             let faces = opposite(setup, h)?;
-            let of_side = |a: usize| faces[a].filter(|_| touches(a)).map(|face| Side { node: a, face });
+            let face_of = |a: usize| faces[a].filter(|_| touches(a));
             for group in setup.copies.chunk_by(|p, q| p[0] == q[0]).filter(|group| group[0][0] < group[0][1]) {
                 let nodes = std::iter::once(group[0][0]).chain(group.iter().map(|p| p[1]));
-                corners.tell_apart(&nodes.filter_map(of_side).stored()?, h, carriers)?;
+                let seen = nodes.clone().filter_map(face_of).stored()?;
+                // What a side will meet that meets nothing yet: the face of a copy that it looks at.
+                let looks_at = |a: usize| seen.iter().copied().find(|face| face.dot(&h.normals[a]) > LEAST_OPPOSITION);
+                let may_touch = |a: usize| coverable[a] && setup.has_multiplier(a);
+                let face = |a: usize| face_of(a).or_else(|| looks_at(a).filter(|_| may_touch(a)));
+                let sides = nodes.filter_map(|node| face(node).map(|face| Side { node, face })).stored()?;
+                corners.tell_apart(sides, h, carriers)?;
             }
         }
         if setup.effects.law.slips {
@@ -70,30 +94,35 @@ impl Corners {
         Ok(corners)
     }
 
-    /// Of the copies of one node that may touch.
-    fn tell_apart(&mut self, sides: &[Side], h: &History, carriers: &mut Vec<Vec<Carrier>>) -> Result<()> {
+    /// Of the copies of one node that may touch, face by face.
+    fn tell_apart(&mut self, mut sides: Vec<Side>, h: &History, carriers: &mut Vec<Vec<Carrier>>) -> Result<()> {
         let lies = |side: &Side| side.face.dot(&h.normals[side.node]) >= LIES_ON;
-        let mut edge: Vec<&Side> = Vec::new();
-        for side in sides.iter().filter(|side| !lies(side)) {
-            if sides.iter().any(|other| lies(other) && other.face.dot(&side.face) >= ONE_FACE) {
-                if self.open.is_empty() {
-                    self.open = memory::filled(false, h.x1.len())?;
+        while let Some(&Side { face, .. }) = sides.first() {
+            let has_it = |side: &Side| side.face.dot(&face) >= ONE_FACE;
+            let any_lies = sides.iter().any(|side| has_it(side) && lies(side));
+            let mut touching = Vec::new();
+            for side in sides.iter().filter(|side| has_it(side)) {
+                match lies(side) == any_lies {
+                    true => touching.store(side.node)?,
+                    false => self.keep_open(side.node, h.x1.len())?,
                 }
-                self.open[side.node] = true;
-            } else {
-                edge.store(side)?;
+            }
+            sides.retain(|side| !has_it(side));
+            if let ([first, others @ ..], Some(normal)) = (&touching[..], Edge::mean(&touching, |a| h.normals[a]))
+                && !others.is_empty()
+            {
+                others.iter().try_for_each(|&a| hand_over(carriers, a, *first, h.x1.len()))?;
+                self.edges.store(Edge { sides: touching, normal })?;
             }
         }
-        while let Some(first) = edge.pop() {
-            let has_it_too = |side: &&Side| side.face.dot(&first.face) >= ONE_FACE;
-            let others = edge.iter().copied().filter(has_it_too).stored()?;
-            edge.retain(|side| !has_it_too(side));
-            let sum = others.iter().fold(h.normals[first.node], |sum, side| sum + h.normals[side.node]);
-            if !others.is_empty() && sum.norm() > SMALLEST_SUM {
-                self.normals.store((first.node, sum.normalize()))?;
-                others.iter().try_for_each(|side| hand_over(carriers, side.node, first.node, h.x1.len()))?;
-            }
+        Ok(())
+    }
+
+    fn keep_open(&mut self, a: usize, nodes: usize) -> Result<()> {
+        if self.open.is_empty() {
+            self.open = memory::filled(false, nodes)?;
         }
+        self.open[a] = true;
         Ok(())
     }
 
@@ -102,9 +131,9 @@ impl Corners {
         self.open.get(a).is_some_and(|open| *open)
     }
 
-    /// nu of the step of a node that carries copies.
-    pub fn normal(&self, a: usize) -> Option<Vec3> {
-        self.normals.iter().find(|(node, _)| *node == a).map(|(_, normal)| *normal)
+    /// The edge that a node belongs to.
+    pub fn edge(&self, a: usize) -> Option<&Edge> {
+        self.edges.iter().find(|edge| edge.sides.contains(&a))
     }
 }
 

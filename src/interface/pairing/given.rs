@@ -39,7 +39,7 @@ impl Step {
 
     /// nu_A(t_n): of a copy that carries others that of the edge.
     pub fn committed_normal(&self, a: usize) -> Vec3 {
-        self.pairing.corners.normal(a).unwrap_or(self.history.normals[a])
+        self.pairing.corners.edge(a).map_or(self.history.normals[a], |edge| edge.normal)
     }
 }
 

@@ -51,7 +51,7 @@ impl Pairing {
         let corners = Corners::settle((setup, history), &coverable, &mut carriers)?;
         let mut keeps_normal = if follows { on_knife_edges(&setup.nonmortar, &history.x1)? } else { Vec::new() };
         if follows {
-            corners.normals.iter().for_each(|&(a, _)| keeps_normal[a] = true);
+            corners.edges.iter().flat_map(|edge| &edge.sides).for_each(|&a| keeps_normal[a] = true);
         }
         Ok(Pairing { filter, coverable, carriers, keeps_normal, corners })
     }
