@@ -5,7 +5,7 @@ import textwrap
 
 from documents import put_between
 from gallery_page import STYLE
-from study_problems import DEFAULT, DUAL, NORMALS, PRESS_FINE, PRESS_STEP, PRESS_STEPS
+from study_problems import COMMITTED, DEFAULT, PAPER, PRESS_FINE, PRESS_STEP, PRESS_STEPS, STANDARD
 from study_share import ASSEMBLY_BOUND, SHARE_BOUND
 
 CELLS = "Linear and quadratic cells"
@@ -77,7 +77,7 @@ def against_default(problems, rows):
 # What the summary shows of the knobs, in this order.
 SHOWN = ("cells_1", "cells_3", "cells_6", "cells_12", "cells_36", "elements_2", "elements_4", "elements_10", "hybrid_3",
          "frozen_normals", "frozen_weights", "rtol_1e-8", "rtol_1e-5", "rtol_1e-3", "weights_committed",
-         "weights_reference", "augmented", DUAL, NORMALS)
+         "weights_reference", "augmented", COMMITTED, STANDARD, PAPER)
 
 
 def matrix(problems, rows):
@@ -110,7 +110,7 @@ def bases(problems, rows):
     for problem in problems:
         for size in problem.sizes:
             middle = size == problem.sizes[problem.middle]
-            names = (DEFAULT, DUAL) if middle else (f"mesh_{size:g}", f"mesh_{size:g}_{DUAL}")
+            names = (STANDARD, DEFAULT) if middle else (f"mesh_{size:g}_{STANDARD}", f"mesh_{size:g}")
             pair = [at.get((problem.name, name)) for name in names]
             if None in pair:
                 continue
@@ -133,7 +133,7 @@ def steps(problems, rows):
     body = []
     for problem in (p for p in problems if p.name == "press_fit"):
         for step in PRESS_STEPS:
-            names = (DEFAULT, NORMALS) if step == PRESS_STEP else (f"steps_{step}", f"steps_{step}_{NORMALS}")
+            names = (COMMITTED, DEFAULT) if step == PRESS_STEP else (f"steps_{step}_{COMMITTED}", f"steps_{step}")
             pair = [at.get((problem.name, name)) for name in names]
             if None in pair:
                 continue
@@ -212,9 +212,10 @@ def sections(problems, rows, measured, choice):
          digit_table(problems, rows, front)),
         ("What each knob changes", "On one mesh: error over the default's, Newton iterations over the default's. The "
          "rules with 1 and 3 points (cells_1, cells_3) with weights frozen within a step, for with current ones they "
-         "find no answer.",
+         "find no answer; that with 1 point with standard multipliers, for it cannot make dual ones. `paper`: standard "
+         "multipliers, normals of the last step.",
          matrix(problems, rows)),
-        ("Standard and dual multipliers", "Both bases on the same meshes, standard / dual. Nodal forces over areas hide how "
+        ("Standard and dual multipliers", "Both bases on the same meshes, standard / dual, with normals of now. Nodal forces over areas hide how "
          "the standard multiplier oscillates, so both errors are given, of the same field. States: "
          + "; ".join(f"{words} ({titles})" for words, titles in states_in_words(problems).items()) + ".",
          bases(problems, rows)),

@@ -5,7 +5,7 @@ nodes, of the whole force. Hertz' line has ten loads, which move the border of t
 compared with Hertz' formula and with fine meshes (fine_line.py), of the theory that each program has and of the deformed
 bodies. A program that is not installed is left out with a word; one that finds no answer is shown with what it said. Seconds are wall time of
 each program's own solution, with whatever linear solver it brings, and include its start: for orders of magnitude.
-What has been run is kept. --renew: puts the tables into docs/accuracy.md.
+What has been run is kept. --renew: puts the tables into docs/other_programs.md.
 """
 
 import argparse
@@ -27,7 +27,7 @@ import study_page  # noqa: E402
 from documents import put_between  # noqa: E402
 from scene import Driver, Line, SceneError  # noqa: E402
 
-DOCUMENT = folders.ROOT / "docs" / "accuracy.md"
+DOCUMENT = folders.ROOT / "docs" / "other_programs.md"
 MARKS = ("<!-- compare -->", "<!-- /compare -->")
 # Over the half-width that the scene's own load has, and how far that one presses.
 FACETS, HALF_WIDTH, TRAVEL = (5, 10, 20), 0.68, 0.1828
@@ -300,7 +300,7 @@ def compare(build, renew):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=Path, required=True, help="CMake's build tree")
-    parser.add_argument("--renew", action="store_true", help="renew the table in docs/accuracy.md")
+    parser.add_argument("--renew", action="store_true", help="renew the table in docs/other_programs.md")
     arguments = parser.parse_args()
     try:
         compare(arguments.build, arguments.renew)
