@@ -63,6 +63,14 @@ def line_pressure(line):
     return friction.profile_error(line, np.abs(line.traction[:, 2]), exact.pressure)
 
 
+def moved_border(driver, scene, loads=10):
+    """Pressures of Hertz' line that move the border of the contact through one facet, as options."""
+    x = np.abs(driver.run(scene, *QUIET[:2], label=f"reference/{scene}").line("contact").x)
+    a, press = Hertz.half_width, 0.625
+    facet = np.ptp([x[x <= a].max(), x[x > a].min()])
+    return [("-press_pressure", press * ((a + facet * k / loads) / a) ** 2) for k in range(loads)]
+
+
 def ball_pressure(parts, modulus):
     """Of a ball of radius 1, of which a part is in the model: nodal forces over areas."""
 
@@ -190,7 +198,8 @@ def turned_shaft(run, driver):
 
 
 def ploughing(speed, first, last):
-    """Of what draws, the part that friction does not dissipate, over what presses: nothing, where all is elastic."""
+    """Of what draws, the part that friction does not dissipate, over what presses: nothing, where all is elastic. In ironing_3d the
+    state is not steady enough for it: it is -1.2 to 3 %, by where the stretch begins and ends."""
 
     def error(run, driver):
         t, press, pull, work = ironing.history(run)
@@ -239,5 +248,4 @@ REFERENCES = {
     "shaft_in_bore": ("torque", bore),
     "turned_shaft": ("drift over a facet", turned_shaft),
     "shallow_ironing": ploughing(10, 1.2, 1.5),
-    "ironing_3d": ploughing(4, 1.3, 1.9),
 }
