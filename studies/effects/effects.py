@@ -58,6 +58,7 @@ INTEGRATION, TANGENT = "stages::integrate::integrate", "linear::Here<_>::lineari
 FULL = ("coulomb", "deformable", "current")
 RATIOS = [
     ("no friction / Coulomb", ("none", "deformable", "current"), FULL, 0.9, CALLS),
+    ("no friction / Coulomb, normals of the last step", ("none", "deformable", "current", "committed"), (*FULL, "committed"), 0.9, CALLS),
     ("rigid / deformable mortar side", ("coulomb", "rigid", "current"), FULL, 0.5, KERNELS),
     ("analytic / deformable mortar side", ("coulomb", "analytic", "current"), FULL, 0.1, KERNELS),
     ("with offsets / without", (*FULL, "offsets"), FULL, None, CALLS),

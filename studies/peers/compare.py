@@ -37,16 +37,19 @@ LOADS = 10
 LEFT_OUT = {(20, "stickslip, points")}
 # The others take the contact's geometry from the undeformed bodies.
 SMALL = ("-contact_weights", "reference")
-DUAL = ("-contact_basis", "dual")
-POINTS = (*DUAL, "-contact_decision", "points")
+POINTS = ("-contact_decision", "points")
+# Normals of the last step, whatever they lag by.
+LAGGING = ("-contact_normals", "committed", "-contact_lag_max", 1, "-contact_lag_corrected", "false")
+PAPER = ("-method", "paper", *LAGGING)
 # Points with weights of the last step: the load is taken in four steps.
 STEPPED = ("-contact_weights", "committed", "-steps_times", "0.25,0.5,0.75,1")
 LAWS = {
     "stickslip, defaults": (),
-    "stickslip, dual": DUAL,
+    "stickslip, normals of the last step": LAGGING,
+    "stickslip, the paper's element": PAPER,
     "stickslip, points": POINTS,
     "stickslip, small displacements": SMALL,
-    "stickslip, small displacements, dual": (*SMALL, *DUAL),
+    "stickslip, small displacements, standard": (*SMALL, "-contact_basis", "standard"),
     "stickslip, small displacements, points": (*SMALL, *POINTS),
 }
 HERTZ_LAWS = {**LAWS, "stickslip, points, four steps": (*STEPPED, *POINTS)}
@@ -55,11 +58,12 @@ HERTZ_LAWS = {**LAWS, "stickslip, points, four steps": (*STEPPED, *POINTS)}
 # In four steps normals are undeformed where nothing touched before the last one.
 DEFORMED = "current"
 THEORIES = {
-    "stickslip, defaults": "start",
-    "stickslip, dual": "start",
+    "stickslip, defaults": "current",
+    "stickslip, normals of the last step": "start",
+    "stickslip, the paper's element": "start",
     "stickslip, points": "current",
     "stickslip, small displacements": "non-mortar",
-    "stickslip, small displacements, dual": "non-mortar",
+    "stickslip, small displacements, standard": "non-mortar",
     "stickslip, small displacements, points": "non-mortar",
     "stickslip, points, four steps": "current",
     "CalculiX, surface to surface (penalty)": "mortar",
