@@ -15,13 +15,15 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: packages hosts newcomer help demo gallery effects aids study border compare bench random fuzz stability scaling scaling-ranks ranks ranks-full newest-petsc ratios digest wheel python-examples check test test-long test-full build install uninstall docs reference abi sizes header compose meshes clean cmake-build rust-tests
+.PHONY: packages hosts newcomer help demo gallery effects aids method study border compare bench random fuzz stability scaling scaling-ranks ranks ranks-full newest-petsc ratios digest wheel python-examples check test test-long test-full build install uninstall docs reference abi sizes header compose meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
 	@echo "make gallery solve, compare and draw every scene, half an hour, can be resumed; ONLY='NAME ...': some"
 	@echo "make effects what each effect of an interface costs: a table and a figure (FIGURES=1: renew the committed one)"
 	@echo "make aids    what each convergence aid is good for: a table"
+	@echo "make method  every scene with the library's default and with the paper's element: iterations, cut-backs, errors; ten minutes, resumed;"
+	@echo "             ONLY='SCENE ...': some (FIGURES=1: renew the digest in docs/method.md)"
 	@echo "make study   what accuracy costs in time, ten to thirty minutes, resumed; QUICK=1: a check; FIGURES=1: as above"
 	@echo "make border  the border of a contact, decided at nodes or at points: tables and a figure, ten minutes (FIGURES=1: as above)"
 	@echo "make compare the same problems in other programs, those that are installed (FIGURES=1: renew the table)"
@@ -113,6 +115,12 @@ aids:
 	@$(PYTHON) studies/aids/aids.py --build $(BUILD)
 	$(SAY) "What it costs to ask whether a step is what it seems"
 	@$(PYTHON) studies/aids/checks.py --build $(BUILD)
+
+method:
+	@.ci/setup demo
+	@$(MAKE) --no-print-directory cmake-build
+	$(SAY) "Every scene with the default and with the paper's element"
+	@$(PYTHON) studies/method/scenes.py --build $(BUILD) --jobs $(JOBS) $(if $(ONLY),--only $(ONLY)) $(if $(FIGURES),--renew)
 
 study:
 	@.ci/setup demo

@@ -30,7 +30,7 @@ from figures import BLUE, GREY, INK, RED, _save  # noqa: E402
 from scene import Driver, SceneError  # noqa: E402
 from study_page import markdown, per_cent  # noqa: E402
 
-DOCUMENT = folders.ROOT / "docs" / "accuracy.md"
+DOCUMENT = folders.ROOT / "docs" / "cells.md"
 MARKS = ("<!-- cells -->", "<!-- /cells -->")
 QUIET = ("-output_quiet", "true")
 RUNS = 2

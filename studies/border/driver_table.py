@@ -1,7 +1,7 @@
 """Nodes and points through the example driver: a part of `make border`. driver_table.py --build DIR [--renew-figures].
 
 The scenes are those of tests/acceptance/points_scenes.py, which `border.py` has without the driver. What has been run is kept in
-DIR/border/driver. --renew-figures: the tables of docs/accuracy.md.
+DIR/border/driver. --renew-figures: the tables of docs/points.md.
 """
 
 import argparse
@@ -17,7 +17,7 @@ from documents import put_between  # noqa: E402
 from points_scenes import LAWS, PULL, Corner  # noqa: E402
 from scene import Driver, SceneError  # noqa: E402
 
-DOCUMENT = folders.ROOT / "docs" / "accuracy.md"
+DOCUMENT = folders.ROOT / "docs" / "points.md"
 MARKS = ("<!-- points -->", "<!-- /points -->")
 LINES, SHEARS, BALLS, CORNERS, OVER_R = (5, 10, 20, 40), (5, 10, 20), (5, 8), (10, 20, 40), (5, 10, 20)
 
@@ -70,7 +70,7 @@ def report(build, renew):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=Path, required=True, help="CMake's build tree")
-    parser.add_argument("--renew-figures", action="store_true", help="renew the tables of docs/accuracy.md")
+    parser.add_argument("--renew-figures", action="store_true", help="renew the tables of docs/points.md")
     arguments = parser.parse_args()
     try:
         report(arguments.build, arguments.renew_figures)

@@ -17,7 +17,7 @@ from laws import Nodal  # noqa: E402
 from library import Library  # noqa: E402
 from scenes import MU, PULL, Hertz, NoAnswer  # noqa: E402
 
-DOCUMENT = folders.ROOT / "docs" / "accuracy.md"
+DOCUMENT = folders.ROOT / "docs" / "points.md"
 MARKS = ("<!-- moving -->", "<!-- /moving -->")
 # Of a pull and of its return; steps in which nothing moves.
 STEPS, REST = 10, 400
@@ -158,7 +158,7 @@ def slides(library):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=Path, required=True, help="CMake's build tree")
-    parser.add_argument("--renew-figures", action="store_true", help="renew the tables of docs/accuracy.md")
+    parser.add_argument("--renew-figures", action="store_true", help="renew the tables of docs/points.md")
     arguments = parser.parse_args()
     library = Library(arguments.build / "lib" / "libstickslip.so")
     tables = [("Errors in per cent, mean and, in brackets, worst of ten loads", steps(library)),

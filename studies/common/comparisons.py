@@ -77,12 +77,12 @@ def patch_cases():
     yield PatchCase("patch_rotated", tuple(about_y @ about_x @ (0, 0, 10)), short="rotated")
 
 
-def patch_error(run, case, deformed=True):
+def patch_error(run, case, deformed=True, interface=INTERFACE):
     """Largest relative error of the nodal multipliers.
 
     With weights of the current configuration the exact multiplier is minus the force over the *deformed* area.
     """
-    table = run.interface(INTERFACE)
+    table = run.interface(interface)
     exact = -np.asarray(case.traction) / (stretch(table) if deformed else 1)
     return np.linalg.norm(multiplier(table) - exact, axis=1).max() / np.linalg.norm(exact)
 

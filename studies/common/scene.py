@@ -200,7 +200,7 @@ class Driver:
         command += map(str, options)
         if ranks > 1:
             command = ["mpirun", "--oversubscribe", "-n", str(ranks), *command]
-        if self.keep and expect == 0 and self._is_new(path, directory, command):
+        if self.keep and expect in (0, None) and self._is_new(path, directory, command):
             result = self._finished(Run(directory, 0, (directory / "log.txt").read_text(), 0.0, math.nan))
             self.report(label or path.stem, result, None)
             return result

@@ -39,7 +39,7 @@ class Rung:
 
     name: str
     options: tuple  # of the driver, on scenes/effects.yaml
-    probe: tuple  # law, mortar side, weights of effects_probe
+    probe: tuple  # law, mortar side, weights of effects_probe, which has the library's default otherwise
 
 
 RUNGS = [
@@ -58,9 +58,13 @@ INTEGRATION, TANGENT = "stages::integrate::integrate", "linear::Here<_>::lineari
 FULL = ("coulomb", "deformable", "current")
 RATIOS = [
     ("no friction / Coulomb", ("none", "deformable", "current"), FULL, 0.9, CALLS),
+    ("no friction / Coulomb, normals of the last step", ("none", "deformable", "current", "committed"), (*FULL, "committed"), 0.9, CALLS),
     ("rigid / deformable mortar side", ("coulomb", "rigid", "current"), FULL, 0.5, KERNELS),
     ("analytic / deformable mortar side", ("coulomb", "analytic", "current"), FULL, 0.1, KERNELS),
     ("with offsets / without", (*FULL, "offsets"), FULL, None, CALLS),
+    ("normals of the last step / of now", (*FULL, "committed"), FULL, None, CALLS),
+    ("standard multipliers / dual", (*FULL, "standard"), FULL, None, CALLS),
+    ("the paper's element / the default", (*FULL, "paper"), FULL, None, CALLS),
     ("Coulomb's law as a callback / built in", ("callback", *FULL[1:]), FULL, 1.05, CALLS),
     ("slip-weakening / Coulomb", ("weakening", *FULL[1:]), FULL, None, CALLS),
     ("orthotropic / Coulomb", ("orthotropic", *FULL[1:]), FULL, None, CALLS),
@@ -68,7 +72,7 @@ RATIOS = [
 
 # Effects of the driver, each on a scene without it and with it: what it adds. Unnamed, it leaves every figure as it is.
 SLIDING = (*FACETS, *LARGE, *FRICTION, *DEFORMABLE)
-AT_NODES = (*FACETS, *DEFORMABLE, "-contact_weights", "committed", "-contact_basis", "dual")
+AT_NODES = (*FACETS, *DEFORMABLE, "-contact_weights", "committed")
 TOOL = ("-bodies", "block,floor,plane,tool", "-tool_type", "rigid", "-tool_from", "box", "-tool_lower", "3,0,0", "-tool_upper", "4,1,1", "-tool_cells",
         "1,1,1", "-tool_reference", "3,0,0", "-supports", "grip,hold,still,fix", "-fix_body", "tool")
 WARM = ("-heat_initial", "20", "-block_conductivity", "1", "-floor_conductivity", "1", "-contact_conductance_constant", "10", "-contact_conductance_reach", "0.01",
@@ -92,9 +96,13 @@ def load(*about):
     return ("-loads", "load", *about)
 
 
-# Rows that begin with + are the row above that has none, with what they name.
+# Rows that begin with + are the row above that has none, with what they name; normals, multipliers and weights in place of its own.
 DRIVER = [
     ("Coulomb friction, large sliding, both sides deform", SLIDING),
+    ("+ normals of the last step", (*SLIDING, "-contact_normals", "committed")),
+    ("+ standard multipliers", (*SLIDING, "-contact_basis", "standard")),
+    ("+ both, the paper's element", (*SLIDING, "-method", "paper")),
+    ("+ weights and normals of the last step", (*SLIDING, "-contact_weights", "committed")),
     ("+ springs per area", (*SLIDING, "-springs", "bed", "-bed_surface", "block.xmin", "-bed_stiffness", "1,1,1")),
     ("+ an axial spring", (*SLIDING, "-springs", "link", "-link_body", "block", "-link_point", "0,0,0.25", "-link_to_point", "-1,0,0.25", "-link_axial", "true",
                            "-link_stiffness", "1")),
@@ -111,7 +119,6 @@ DRIVER = [
     ("+ heat across the interface", (*SLIDING, *WARM)),
     ("+ heat, also of friction, that bodies expand by", (*SLIDING, *WARM, "-contact_friction_heat", "0.5", "-heat_coupling", "two_way", "-block_expansion", "1e-6")),
     ("+ restart files", (*SLIDING, "-output_restart_every", "1")),
-    ("+ normals of now", (*SLIDING, "-contact_normals", "current")),
     ("+ dynamics", (*SLIDING, *MASS)),
     ("+ dynamics, persistent weights", (*SLIDING, *MASS, "-contact_weights", "persistent")),
     ("+ dynamics, a rigid body that turns freely", (*SLIDING, *MASS, *TURNED, "-tool_mass", "1", "-tool_inertia", "1,2,3", "-tool_spin", "0,0,0.1")),
@@ -121,12 +128,12 @@ DRIVER = [
     ("law: orthotropic", (*SLIDING, *law("orthotropic", "-contact_friction_across", "0.1", "-contact_direction", "1,1,0"))),
     ("law: rough", (*FACETS, *LARGE, *DEFORMABLE, *law("rough", "-contact_basis", "standard"))),  # dual: a node that pulls has no state of rest
     ("law: tied", (*FACETS, *DEFORMABLE, *law("tied"))),
-    ("no friction, dual, frozen in a step", AT_NODES),
+    ("no friction, frozen in a step", AT_NODES),
     ("+ decided at points", (*AT_NODES, *POINTS)),
     ("+ multipliers condensed", (*AT_NODES, "-unknowns", "displacements")),
-    ("no friction, dual, weights of now", (*AT_NODES, *LARGE)),
+    ("no friction, weights of now", (*AT_NODES, *LARGE)),
     ("+ decided at points", (*AT_NODES, *LARGE, *POINTS)),
-    ("Coulomb friction, dual, frozen in a step", FROZEN),
+    ("Coulomb friction, frozen in a step", FROZEN),
     ("+ decided at points", (*FROZEN, *POINTS)),
 ]
 GALLERY, MARKS = folders.ROOT / "docs" / "site" / "gallery.md", ("<!-- effects -->\n", "<!-- /effects -->\n")

@@ -1,9 +1,10 @@
 /* One interface, evaluated with the effects that the command line names, for counting what they cost:
  *
- *   effects_probe LAW SIDE WEIGHTS [offsets]
+ *   effects_probe LAW SIDE WEIGHTS [offsets | standard | committed | paper]
  *     LAW: none | coulomb | weakening | orthotropic | callback (Coulomb's, as a function of the host's)   SIDE: analytic | rigid | deformable
  *     WEIGHTS: reference | current
  *     offsets: each surface is a layer that is thicker than its mesh, as a shell's
+ *     standard: multipliers, not dual ones; committed: normals of the last commit, not of now; paper: both
  *
  * A non-mortar patch of N1 x N1 quadrilaterals (the unit square, bent a little) lies 0.001 deep in a plane: as a mortar patch
  * of N2 x N2 quadrilaterals, or as the analytic plane. It slides a little further before each of the evaluations, which are
@@ -94,13 +95,16 @@ int main(int argc, char **argv)
   stickslip_counters   counters = {.struct_size = sizeof counters};
   int64_t              capacity = 0, count, n_equations;
 
-  const int with_offsets = argc == 5 && !strcmp(argv[4], "offsets");
-  if (argc != 4 + with_offsets) return fprintf(stderr, "usage: effects_probe LAW SIDE WEIGHTS [offsets]\n"), 1;
+  if (argc != 4 && argc != 5) return fprintf(stderr, "usage: effects_probe LAW SIDE WEIGHTS [offsets | standard | committed | paper]\n"), 1;
+  static const char *const mores[] = {"none", "offsets", "standard", "committed", "paper", NULL};
+  const int more = argc == 5 ? choose(argv[4], mores) : 0, with_offsets = more == 1;
   stop_on(stickslip_options_init(&options, sizeof options));
   options.friction    = choose(argv[1], laws);
   if (options.friction > STICKSLIP_FRICTION_NONE) options.friction = STICKSLIP_FRICTION_COULOMB; /* its place is another law's */
   options.mortar_side = choose(argv[2], sides);
   method.weights      = choose(argv[3], weights);
+  if (more == 2 || more == 4) method.multiplier_basis = STICKSLIP_BASIS_STANDARD;
+  if (more == 3 || more == 4) method.normals = STICKSLIP_NORMALS_COMMITTED;
   options.method      = &method;
   options.modulus     = MODULUS;
   options.mu          = options.friction == STICKSLIP_FRICTION_COULOMB ? 0.3 : 0;

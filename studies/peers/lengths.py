@@ -3,7 +3,7 @@
 
 A length enters twice: r = 0.9 E* / h, and K over it, a third power. Here each has its own, by what the example driver has for them
 (`augmentation` is r alone, `modulus` then K's), small displacements, against the fine mesh of the same theory. What has been run is kept in
-DIR/compare. --renew: the table of docs/accuracy.md.
+DIR/compare. --renew: the table of docs/other_programs.md.
 """
 
 import argparse
@@ -69,7 +69,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=Path, required=True, help="CMake's build tree")
     parser.add_argument("--loads", type=int, choices=(1, 2, 5, 10), default=10, help="of ten, those that are evenly apart")
-    parser.add_argument("--renew", action="store_true", help="renew the table of docs/accuracy.md")
+    parser.add_argument("--renew", action="store_true", help="renew the table of docs/other_programs.md")
     arguments = parser.parse_args()
     report(arguments.build, arguments.loads, arguments.renew)
     return 0

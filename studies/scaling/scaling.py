@@ -32,7 +32,7 @@ LARGEST_DIRECT = 24
 # Cells along an edge of the upper block, and ranks, of which each holds its piece.
 HELD_SIZE, HELD_RANKS = 24, (1, 2, 4)
 OPTIONS = ("-unknowns", "displacements", "-contact_basis", "dual", "-output_quiet", "true")
-STANDARD = ("-output_quiet", "true")
+STANDARD = ("-contact_basis", "standard", "-output_quiet", "true")
 HELD_BY_CONTACT = ("-grip_components", "z", "-contact_friction", "1")
 STANDARD_BEGIN, STANDARD_END = "<!-- scaling.py writes of multipliers from here -->", "<!-- multipliers to here -->"
 

@@ -19,6 +19,8 @@ OSCILLATION_BOUND = 0.01
 FACET = 0.1
 # The period that a spectrum over 30 to 70 facets can tell.
 PERIOD_BOUND = 0.05
+# Degree of the smooth trend about which it is: H is smooth to 0.05 %, less than what a polynomial of degree 4 leaves of its trend.
+TREND = 8
 # Iterations a step, over the whole run.
 NEWTON_BOUND = 8
 # Within the published curves, widened by how well they can be read off: code_aster's curve and its regression value at
@@ -74,7 +76,7 @@ def ironing_full(verdicts, driver):
 
 def period(x, values):
     """Wave length of the largest oscillation about a smooth trend."""
-    rest = values - np.polyval(np.polyfit(x, values, 4), x)
+    rest = values - np.polyval(np.polyfit(x, values, TREND), x)
     amplitude = np.abs(np.fft.rfft(rest * np.hanning(len(rest))))
     return 1 / np.fft.rfftfreq(len(rest), x[1] - x[0])[1:][amplitude[1:].argmax()]
 

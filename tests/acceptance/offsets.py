@@ -9,7 +9,7 @@ from scene import write
 # Linear cells, weights of the reference, a uniform field: the linear solver's rounding is left.
 PATCH_BOUND = 1e-11
 # Three rings of 24, 30 and 38 facets, with the facets' chords corrected. With frozen dual weights the whole error of the bodies, which are
-# polygons, is left: measured 4.8e-3 (docs/accuracy.md, "Round surfaces of few facets").
+# polygons, is left: measured 4.8e-3 (docs/cells.md, "Round surfaces of few facets").
 RINGS_BOUND = {("standard", "reference"): 3e-3, ("dual", "current"): 3e-3, ("dual", "reference"): 6e-3}
 # The same without the correction is far off: the bound above can fail.
 UNCORRECTED = 3e-2

@@ -7,7 +7,7 @@ from scene import interfaces, write
 
 # Patch tests: the linear solver's rounding.
 PATCH_BOUND = 1e-11
-# Errors of the pressure, mean over loads that move the border through a facet. What the plane study found (docs/accuracy.md: 1.3,
+# Errors of the pressure, mean over loads that move the border through a facet. What the plane study found (docs/border.md: 1.3,
 # 0.77, 0.36 %; ball 2.2, 1.3 %; corner 2.6, 2.2, 1.9 %), and a tenth for fewer loads and other corners of the mesh.
 LINE_BOUND = {5: 1.6e-2, 10: 9e-3, 20: 5e-3}
 BALL_BOUND = {5: 2.4e-2, 8: 1.4e-2}
@@ -21,7 +21,7 @@ SHEARED = {name: law for name, law in LAWS.items() if name != "nodes, standard"}
 RESTS, REST_BOUND = 400, 1e-6
 CORNER_BOUND = {10: 3e-2, 20: 2.4e-2, 40: 2.1e-2}
 # Of r over its default, K as it is: on the mean nowhere worse than dual nodes. Beyond, r / 100 with 10 facets has 1.11 times their
-# mean, and the limit r -> 0 has 1.16: there K alone is what is left of the method (docs/accuracy.md).
+# mean, and the limit r -> 0 has 1.16: there K alone is what is left of the method (docs/border.md).
 FACTORS, BEYOND, LIMIT, MARGIN = (0.1, 1, 10), (0.01, 100), 1e-4, 1.2
 # The most by which the forces next to a corner may be off, mean over places of the mesh, whatever the facets: 1.3 and 5.0 % are found.
 EDGE_BOUND, PLACES = (2e-2, 6e-2), 5

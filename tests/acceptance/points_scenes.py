@@ -28,7 +28,7 @@ THICK = 0.1
 RULE = 20
 NAME = "contact"
 # Further options of the interface by the law's name.
-NODES = {"nodes, standard": {}, "nodes, dual": {"basis": "dual"}}
+NODES = {"nodes, standard": {"basis": "standard"}, "nodes, dual": {"basis": "dual"}}
 POINTS = {"basis": "dual", "decision": "points"}
 LAWS = {**NODES, "points": POINTS}
 
