@@ -71,7 +71,10 @@ def solve(driver, scene, label, *options, **more):
 
 
 def closed(verdicts, driver, shape, base, gap, friction, contact=None, ranks=1, note=""):
-    """By force, then by the closing that this ended with."""
+    """By force, then by the closing that this ended with. Which of its sides a cube's corner will touch with is not known a body's size
+    away, where they have nothing opposite: dual multipliers of all three then have one condition for a step."""
+    if (shape, gap) == ("cube", "size"):
+        contact = {"basis": "standard"} | (contact or {})
     label = f"{shape}_{base}_{gap}_{friction}{note}"
     compared(verdicts, driver, label, touching(shape, base, scaled(gap, shape), friction, contact=contact), shape, ranks)
 

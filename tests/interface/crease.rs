@@ -13,19 +13,19 @@ use stickslip::normal::corner_normal;
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
-fn surface(side: &'static str, mesh: &Mesh) -> Surface {
+pub fn surface(side: &'static str, mesh: &Mesh) -> Surface {
     Surface::new(side, mesh.x.clone(), &mesh.facets, numbered(0, mesh.x.len())).unwrap()
 }
 
 /// The mesh with the split's numbering.
-fn apply(mesh: &Mesh, split: &Split) -> Mesh {
+pub fn apply(mesh: &Mesh, split: &Split) -> Mesh {
     let mut nodes = split.facet_nodes.iter().map(|&k| k as i64);
     let facets = mesh.facets.iter().map(|f| nodes.by_ref().take(f.len()).collect()).collect();
     Mesh { x: split.originals.iter().map(|&k| mesh.x[k]).collect(), facets }
 }
 
 /// Grids on the planes through the origin that `axes` span pairwise, welded; normals along `axes[0] x axes[1]` and so on.
-fn corner(n: usize, planes: &[[Vec3; 2]]) -> Mesh {
+pub fn corner(n: usize, planes: &[[Vec3; 2]]) -> Mesh {
     let mut mesh = Mesh { x: Vec::new(), facets: Vec::new() };
     for [a, b] in planes {
         let sheet = grid(n, n, [0.0, 0.0], [1.0, 1.0], 0.0, true, Cells::Quads);
