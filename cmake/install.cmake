@@ -50,7 +50,7 @@ install(FILES c_examples/block_host.c c_examples/petsc_block.c c_examples/pair_d
 install(DIRECTORY c_examples/fortran DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_examples" FILES_MATCHING PATTERN "*.f90")
 # The driver as something to read, its scenes and their meshes: the guides name them.
 install(DIRECTORY c_examples/snes_contact c_examples/scenes c_examples/meshes DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_examples"
-  FILES_MATCHING PATTERN "*.c" PATTERN "*.h" PATTERN "*.yaml" PATTERN "*.msh" PATTERN "*.geo" PATTERN "*.py" PATTERN "*.sh" PATTERN "README.md")
+  FILES_MATCHING PATTERN "*.c" PATTERN "*.h" PATTERN "*.yaml" PATTERN "*.msh" PATTERN "*.geo" PATTERN "*.py" PATTERN "*.sh" PATTERN "*.md")
 install(DIRECTORY docs/figures/ DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs/figures")
 
 # The list for uninstalling, relative to the prefix, so that it is right wherever the tree is:

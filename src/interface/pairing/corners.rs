@@ -11,9 +11,10 @@
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::history::History;
-use crate::interface::data::setup::Setup;
+use crate::interface::data::options::Options;
+use crate::interface::data::surface::Surface;
 use crate::interface::pairing::filter::LEAST_OPPOSITION;
-use crate::interface::pairing::weak::Carrier;
+use crate::interface::pairing::weak::{self, Carrier};
 use crate::memory::{self, Store, Stored};
 use crate::normal::SMALLEST_SUM;
 
@@ -37,6 +38,26 @@ pub struct Corners {
     pub edges: Vec<Edge>,
 }
 
+/// Copies of nodes on creases, and what is known of them at creation.
+pub struct Copies<'a> {
+    /// Pairs of them, both ways round.
+    pub pairs: &'a [[usize; 2]],
+    /// The non-mortar side.
+    pub surface: &'a Surface,
+    /// The interface's choices.
+    pub options: &'a Options,
+    /// Whether the law slips.
+    pub slips: bool,
+    /// Whether a node has a multiplier at all.
+    pub has_multiplier: &'a dyn Fn(usize) -> bool,
+}
+
+impl Copies<'_> {
+    fn is_covered(&self, h: &History, a: usize) -> bool {
+        h.coverage[a] > self.options.coverage_min * h.areas[a]
+    }
+}
+
 /// Copies of a node that touch as one.
 #[derive(Debug)]
 pub struct Edge {
@@ -56,37 +77,37 @@ impl Edge {
 
 impl Corners {
     /// Those of a step. Adds copies that others carry to `carriers`.
-    pub fn settle<const N: usize>(
-        (setup, h): (&Setup<N>, &History),
+    pub fn settle(
+        copies: &Copies,
+        h: &History,
         coverable: &[bool],
         carriers: &mut Vec<Vec<Carrier>>,
     ) -> Result<Corners> {
         let mut corners = Corners::default();
-        if setup.copies.is_empty() || !h.integrated {
+        if copies.pairs.is_empty() || !h.integrated {
             return Ok(corners);
         }
-        let least = setup.options.coverage_min;
-        let touches = |a: usize| coverable[a] && h.coverage[a] > least * h.areas[a] && setup.has_multiplier(a);
-        if setup.options.tells_copies_apart() {
-            let faces = opposite(setup, h)?;
+        let may_touch = |a: usize| coverable[a] && (copies.has_multiplier)(a);
+        let touches = |a: usize| may_touch(a) && copies.is_covered(h, a);
+        if copies.options.tells_copies_apart() {
+            let faces = opposite(copies, h)?;
             let face_of = |a: usize| faces[a].filter(|_| touches(a));
-            for group in setup.copies.chunk_by(|p, q| p[0] == q[0]).filter(|group| group[0][0] < group[0][1]) {
+            for group in copies.pairs.chunk_by(|p, q| p[0] == q[0]).filter(|group| group[0][0] < group[0][1]) {
                 let nodes = std::iter::once(group[0][0]).chain(group.iter().map(|p| p[1]));
                 let seen = nodes.clone().filter_map(face_of).stored()?;
                 // What a side will meet that meets nothing yet: the face of a copy that it looks at.
                 let looks_at = |a: usize| seen.iter().copied().find(|face| face.dot(&h.normals[a]) > LEAST_OPPOSITION);
-                let may_touch = |a: usize| coverable[a] && setup.has_multiplier(a);
                 let face = |a: usize| face_of(a).or_else(|| looks_at(a).filter(|_| may_touch(a)));
                 let sides = nodes.filter_map(|node| face(node).map(|face| Side { node, face })).stored()?;
                 corners.tell_apart(sides, h, carriers)?;
             }
         }
-        if setup.effects.law.slips {
+        if copies.slips {
             let mut frictionless = memory::filled(false, coverable.len())?;
             let stands_in = |b: usize| !corners.is_open(b) && carriers.get(b).is_none_or(Vec::is_empty);
-            let surface = &setup.nonmortar;
+            let surface = copies.surface;
             let near = |b: usize| height(h, b) <= FACETS * surface.size(h.areas[b], h.x1[b]);
-            for &[a, b] in &setup.copies {
+            for &[a, b] in copies.pairs {
                 frictionless[a] |= touches(b) && stands_in(b) && near(b);
             }
             corners.frictionless = frictionless;
@@ -149,12 +170,11 @@ fn height(h: &History, a: usize) -> f64 {
 }
 
 /// Per node the normal of what the corners of its facets have opposite, the surface of the points x - g / m; none where too little is covered.
-fn opposite<const N: usize>(setup: &Setup<N>, h: &History) -> Result<Vec<Option<Vec3>>> {
-    let covered = |a: usize| h.coverage[a] > setup.options.coverage_min * h.areas[a];
+fn opposite(copies: &Copies, h: &History) -> Result<Vec<Option<Vec3>>> {
     let unknown = Vec3::repeat(f64::NAN); // a corner with such a neighbour has no normal
-    let point = |a: usize| if covered(a) { h.x1[a] - h.gap[a] / h.coverage[a] } else { unknown };
+    let point = |a: usize| if copies.is_covered(h, a) { h.x1[a] - h.gap[a] / h.coverage[a] } else { unknown };
     let points = (0..h.x1.len()).map(point).stored()?;
-    let sums = setup.nonmortar.sums_of_normals(&points)?;
+    let sums = copies.surface.sums_of_normals(&points)?;
     sums.into_iter().map(|sum| (sum.norm() > SMALLEST_SUM).then(|| -sum.normalize())).stored()
 }
 
@@ -164,16 +184,11 @@ fn hand_over(carriers: &mut Vec<Vec<Carrier>>, from: usize, to: usize, n: usize)
         *carriers = memory::defaults(n)?;
     }
     let heirs = if carriers[to].is_empty() { memory::filled((to, 1.0), 1)? } else { memory::copied(&carriers[to])? };
-    for a in 0..n {
-        if let Some(k) = carriers[a].iter().position(|&(b, _)| b == from) {
-            let (_, share) = carriers[a].swap_remove(k);
-            for &(b, w) in &heirs {
-                match carriers[a].iter_mut().find(|(c, _)| *c == b) {
-                    Some(known) => known.1 += share * w,
-                    None => carriers[a].store((b, share * w))?,
-                }
-            }
-            carriers[a].sort_unstable_by_key(|&(b, _)| b);
+    for all in carriers.iter_mut() {
+        if let Some(k) = all.iter().position(|&(b, _)| b == from) {
+            let (_, share) = all.swap_remove(k);
+            all.store_all(heirs.iter().map(|&(b, w)| (b, share * w)))?;
+            *all = weak::gather(std::mem::take(all))?;
         }
     }
     carriers[from] = heirs;

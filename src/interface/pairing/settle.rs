@@ -4,7 +4,7 @@
 use super::analytic;
 use super::boxes::Aabb;
 use super::candidates::KeptTree;
-use super::corners::Corners;
+use super::corners::{Copies, Corners};
 use super::depth;
 use super::filter::{FacetFilter, Filter, Side};
 use super::hybrid;
@@ -48,7 +48,14 @@ impl Pairing {
         let follows = setup.options.follows_normals();
         let coverable = reach::coverable(&setup.nonmortar, filter.as_ref().filter(|_| !follows), pairs)?;
         let mut carriers = carriers(setup, history, &coverable)?;
-        let corners = Corners::settle((setup, history), &coverable, &mut carriers)?;
+        let copies = Copies {
+            pairs: &setup.copies,
+            surface: &setup.nonmortar,
+            options: &setup.options,
+            slips: setup.effects.law.slips,
+            has_multiplier: &|a| setup.has_multiplier(a),
+        };
+        let corners = Corners::settle(&copies, history, &coverable, &mut carriers)?;
         let mut keeps_normal = if follows { on_knife_edges(&setup.nonmortar, &history.x1)? } else { Vec::new() };
         if follows {
             corners.edges.iter().flat_map(|edge| &edge.sides).for_each(|&a| keeps_normal[a] = true);

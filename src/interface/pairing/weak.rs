@@ -80,7 +80,7 @@ fn mean<'a>(nodes: impl Iterator<Item = (&'a Vec<Carrier>, f64)>) -> Result<Vec<
 }
 
 /// Sorted by node, the weights of a node added up.
-fn gather(all: Vec<Carrier>) -> Result<Vec<Carrier>> {
+pub fn gather(all: Vec<Carrier>) -> Result<Vec<Carrier>> {
     let mut all = memory::sorted(&all, |p, q| p.0.cmp(&q.0).then(p.1.total_cmp(&q.1)))?;
     all.dedup_by(|next, kept| {
         let same = next.0 == kept.0;
