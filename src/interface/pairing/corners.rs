@@ -93,12 +93,12 @@ impl Corners {
             let faces = opposite(copies, h)?;
             let face_of = |a: usize| faces[a].filter(|_| touches(a));
             for group in copies.pairs.chunk_by(|p, q| p[0] == q[0]).filter(|group| group[0][0] < group[0][1]) {
-                let nodes = std::iter::once(group[0][0]).chain(group.iter().map(|p| p[1]));
-                let seen = nodes.clone().filter_map(face_of).stored()?;
+                let nodes = || std::iter::once(group[0][0]).chain(group.iter().map(|p| p[1]));
+                let seen = nodes().filter_map(face_of).stored()?;
                 // What a side will meet that meets nothing yet: the face of a copy that it looks at.
                 let looks_at = |a: usize| seen.iter().copied().find(|face| face.dot(&h.normals[a]) > LEAST_OPPOSITION);
                 let face = |a: usize| face_of(a).or_else(|| looks_at(a).filter(|_| may_touch(a)));
-                let sides = nodes.filter_map(|node| face(node).map(|face| Side { node, face })).stored()?;
+                let sides = nodes().filter_map(|node| face(node).map(|face| Side { node, face })).stored()?;
                 corners.tell_apart(sides, h, carriers)?;
             }
         }
