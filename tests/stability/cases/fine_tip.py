@@ -6,7 +6,8 @@ import host
 from cell import series
 
 CELLS = (6, 12, 24, 48, 96, 144)  # of the cap, along each edge, which is 1.2 wide
-# Facets of the block over 4: the cap reaches 0.03 behind them, less than what a run is refused with. Facets of 0.8 it dents by 0.08.
+# Facets of the block over 4: the cap reaches 0.015 behind them and more, a facet and more of the finest caps, and less than what a run is refused with.
+# Facets of 0.8 it dents by 0.08.
 BLOCK, COARSE = 9, 5
 DENTED = "Facets that are coarser than the contact do not feel it"
 STEPS = (1, 2, 5, 10, 20, 60)
