@@ -364,6 +364,26 @@ fn what_quadratic_facets_do_not_take_is_refused() {
     x[one.facets[0][4] as usize] = x[one.facets[0][0] as usize] * 0.9 + x[one.facets[0][1] as usize] * 0.1;
     let text = Surface::new("mortar", x, &one.facets, numbered(0, one.x.len())).unwrap_err().to_string();
     assert!(text.contains("facet 0") && text.contains("quarter"), "{text}");
+    // A mid node nearly as far off leaves a non-mortar corner without a normal: of an interface that needs one, on that side.
+    for (s, side, friction, fine) in [
+        (0.22, 0, Friction::Coulomb, true),
+        (0.24, 0, Friction::Coulomb, false),
+        (0.24, 0, Friction::Tied, true),
+        (0.24, 1, Friction::Coulomb, true),
+    ] {
+        let mut x = [one.x.clone(), two.x.clone()];
+        let [a, b, mid] = [0, 1, 4].map(|k| [&one, &two][side].facets[0][k] as usize);
+        x[side][mid] = x[side][a] * (0.5 + s) + x[side][b] * (0.5 - s);
+        let [x1, x2] = x;
+        let n1 = x1.len();
+        let s1 = Surface::new("nonmortar", x1, &one.facets, numbered(0, n1)).unwrap();
+        let s2 = Surface::new("mortar", x2, &two.facets, numbered(3 * n1, two.x.len())).unwrap();
+        let options = under(friction, 0.0, Options { space: MultiplierSpace::Sub, ..options() });
+        match Interface::new(s1, s2, numbered(100, n1), options) {
+            Ok(_) => assert!(fine, "{s} on side {side}, {friction:?}"),
+            Err(e) => assert!(!fine && e.to_string().contains("no normal to go by"), "{s} on side {side}: {e}"),
+        }
+    }
     let text = Surface::new("mortar", one.x.clone(), &[(0..7).collect()], numbered(0, 8)).unwrap_err().to_string();
     assert!(text.contains("facet 0 has 7 nodes; 3, 4, 6, 8 or 9 are allowed"), "{text}");
 }

@@ -5,8 +5,9 @@
 
 /* Part of the normal forces of an interface that may act without friction: so much is lacking of what friction holds. */
 static const PetscReal WITHOUT_FRICTION = 0.02;
-/* A tangential traction below this part of the normal one is rounding: the node has no friction. */
-static const PetscReal ROUNDING = 1e-12;
+/* A tangential traction below this part of the normal one is rounding: the node has no friction. Friction may be as little itself: what
+ * slips with it has all of it, not this part. */
+static const PetscReal ROUNDING = 1e-12, OF_FRICTION = 0.01;
 
 PetscBool newly_rubs(const stickslip_options *options)
 {
@@ -24,9 +25,10 @@ static PetscBool has_copy(const ContactPart *part, const int32_t state[], PetscI
 }
 
 /* Adds a part's normal forces to sums[0], to sums[1] those of nodes that slip without friction. */
-static PetscErrorCode add_forces(const ContactPart *part, PetscReal sums[2])
+static PetscErrorCode add_forces(const ContactPart *part, PetscReal mu, PetscReal sums[2])
 {
   const PetscInt   n1 = part->n1, d = part->dimension;
+  const PetscReal  none = PetscMin(ROUNDING, OF_FRICTION * mu);
   stickslip_states wanted = {.struct_size = sizeof(wanted)};
   PetscReal        pressed = 0;
   PetscFunctionBegin;
@@ -47,7 +49,7 @@ static PetscErrorCode add_forces(const ContactPart *part, PetscReal sums[2])
       removed += (part->removed[a] >> k) & 1;
     if (part->owned[a] != STICKSLIP_NODE_OWN || wanted.state[a] == STICKSLIP_STATE_GAP || removed >= d - 1) continue;
     sums[0] += PetscAbsReal(p) * wanted.coverage[a];
-    if (wanted.state[a] == STICKSLIP_STATE_SLIP && across <= ROUNDING * PetscAbsReal(p) && !has_copy(part, wanted.state, a))
+    if (wanted.state[a] == STICKSLIP_STATE_SLIP && across <= none * PetscAbsReal(p) && !has_copy(part, wanted.state, a))
       sums[1] += PetscAbsReal(p) * wanted.coverage[a];
   }
   PetscCall(PetscFree4(wanted.state, wanted.traction, wanted.normal, wanted.coverage));
@@ -64,7 +66,7 @@ PetscErrorCode newly_check(const Contact *contact, char why[], size_t length)
     if (!newly_rubs(&interface->options) || interface->method.weights != STICKSLIP_WEIGHTS_CURRENT ||
         interface->method.new_contact != STICKSLIP_NEW_CONTACT_FRICTIONLESS)
       continue;
-    PetscCall(add_forces(&interface->part, sums));
+    PetscCall(add_forces(&interface->part, interface->options.mu, sums));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
     if (!(sums[1] > WITHOUT_FRICTION * sums[0])) continue;
     PetscCall(PetscSNPrintf(why, length,

@@ -45,9 +45,10 @@ static PetscErrorCode check_tractions(const Physics *physics, const Interface *i
   if (interface->confined == PETSC_MAX_REAL || traction <= STRAIN * interface->confined * shortness(physics, interface->confined))
     PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscSNPrintf(why, length,
-                          "a traction of %.2g between the surfaces of %s, which the softer side, with a modulus of %.2g, cannot carry. Some of its "
-                          "conditions push on nothing, or say what others say: see whether supports hold nodes of both sides, or another interface "
-                          "has the same nodes; take the other side as `nonmortar`, or another `basis`",
+                          "a traction of %.2g between the surfaces of %s, which the softer side, with a modulus of %.2g, cannot carry. Either the "
+                          "loads are far beyond it: see the units of loads and moduli. Or some of its conditions push on nothing, or say what others "
+                          "say: see whether supports hold nodes of both sides, or another interface has the same nodes; take the other side as "
+                          "`nonmortar`, or another `basis`",
                           (double)traction, interface->name, (double)interface->confined));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -73,12 +73,14 @@ static int compare(const void *one, const void *two)
 }
 
 /* Those first that stay: of two floors under a block it is the upper one, which is less open; what supports hold gives way to what is
- * free. Gaps that differ by rounding are like gaps. */
+ * free. Gaps that differ by rounding are like gaps. Of those a node that one surface has stays, be it held along the surface: where it is left
+ * out for the sake of one that several have, what is left has to pull there to press evenly. */
 static int compare_strength(const void *one, const void *two)
 {
   const Multiplier *a = one, *b = two;
   if (a->held != b->held) return a->held ? 1 : -1;
   if (a->steps_open != b->steps_open) return a->steps_open < b->steps_open ? -1 : 1;
+  if (a->shared != b->shared) return a->shared ? 1 : -1;
   return compare(one, two);
 }
 
@@ -103,6 +105,7 @@ static PetscErrorCode look_at_home(const Contact *contact, PetscInt number, cons
     *m = (Multiplier){.equation = (PetscInt)equations[k], .interface = number, .number = homes_number(interface, a), .component = k % c};
     m->coverage = interface->states.coverage[a];
     m->tied     = (PetscBool)(interface->options.friction == STICKSLIP_FRICTION_TIED);
+    m->shared   = (PetscBool)(surfaces[a] >= 2);
     m->held     = (PetscBool)(m->tied ? (interface->prescribed[a] >> m->component) & 1 : (interface->prescribed[a] & all) == all);
     if (m->tied) {
       m->steps_open = 0;

@@ -3,12 +3,12 @@
 #define SNES_CONTACT_REDUNDANT_H
 #include "solve/solve.h"
 
-/* A multiplier that may be redundant: its equation, of which component of which node of which interface; whether that is tied, and held by
- * supports (of contact: wholly); where that is, what is covered of the node, and how far that is open,
- * in steps too small to count. */
+/* A multiplier that may be redundant: its equation, of which component of which node of which interface; whether that is tied, held by
+ * supports (of contact: wholly), and of a node that several surfaces have; where that is, what is covered of the node, and how far that is
+ * open, in steps too small to count. */
 struct Multiplier {
   PetscInt  equation, interface, number, component;
-  PetscBool tied, held;
+  PetscBool tied, held, shared;
   PetscReal X[3], coverage, steps_open;
 };
 

@@ -20,8 +20,8 @@ static const PetscReal REACH = 0.02;
 /* Where moves go on and on in one direction, within this cosine, they become longer, up to this; and the loads' part in them, by as much. */
 static const PetscReal ALIKE = 0.9, FARTHEST = 0.2, EAGER = 32;
 /* At rest: a move is shorter than this part of what it would be if nothing stopped it: what is left, friction holds. What sweeps still
- * change, over that. */
-static const PetscReal REST = 5e-2, SWEPT = 5e-5;
+ * change, over the reach of a first move: what they leave is a turn, which takes what touches along the surface, and friction keeps it there. */
+static const PetscReal REST = 5e-2, SWEPT = 1e-9;
 /* How deep touching nodes end, over the edge: about what the loads press them in by, within bounds. */
 static const PetscReal DEEPEST = 1e-2, SHALLOWEST = 1e-8;
 /* A node that opens by less than this part of a motion's size does not stop it. */

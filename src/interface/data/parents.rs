@@ -90,13 +90,26 @@ impl Parents {
     pub fn check(&self, x: &[Vec3]) -> Result<()> {
         for (f, facet) in self.facets.iter().enumerate() {
             let at = self.at(f, x);
-            let named = |e: Error| Error::new(e.kind, text!("facet {f}, nodes {:?}: {}", facet.as_slice(), e.message));
             match self.lines {
-                None => ParentFacet::new(&at.x[..facet.parent.n]).map(|_| ()).map_err(named)?,
-                Some(_) => LineFacet::new(&line(&at).x[..facet.parent.n]).map(|_| ()).map_err(named)?,
+                None => ParentFacet::new(&at.x[..facet.parent.n]).map(|_| ()).map_err(self.named(f))?,
+                Some(_) => LineFacet::new(&line(&at).x[..facet.parent.n]).map(|_| ()).map_err(self.named(f))?,
             }
         }
         Ok(())
+    }
+
+    /// Refuses facets that have no normal to go by at a node.
+    ///
+    /// # Errors
+    /// [`crate::error::Kind::DegenerateFacet`]: see [`ParentFacet::check_normals`].
+    pub fn check_normals(&self, x: &[Vec3]) -> Result<()> {
+        let count = if self.lines.is_none() { self.facets.len() } else { 0 };
+        (0..count).try_for_each(|f| self.at(f, x).check_normals().map_err(self.named(f)))
+    }
+
+    /// A facet's refusal, with its name.
+    fn named(&self, f: usize) -> impl Fn(Error) -> Error + '_ {
+        move |e| Error::new(e.kind, text!("facet {f}, nodes {:?}: {}", self.facets[f].as_slice(), e.message))
     }
 
     /// The nodes that have the multipliers over a part.

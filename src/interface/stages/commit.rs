@@ -100,6 +100,10 @@ pub fn settled_at(
     }
     if let Some(parents) = &nonmortar.parents {
         check_parents(surfaces, (x1, x2))?;
+        if options.friction.law().opens {
+            let named = |e: Error| Error::new(e.kind, text!("{} {}", nonmortar.side, e.message));
+            parents.check_normals(x1).map_err(named)?;
+        }
         nodal_areas(parents, x1, &mut history.areas)?;
     }
     let linear = if nonmortar.parents.is_none() { &nonmortar.facets[..] } else { &[] };

@@ -6,7 +6,7 @@ import host
 from cell import series
 from comparisons import difference
 
-SLIDES = ("0", "1e-12", "1e-9", "1e-6", "1e-3", "0.1", "0.5")
+SLIDES = ("0", "1e-15", "1e-12", "1e-9", "1e-6", "1e-3", "0.1", "0.5")
 STICKS = ("1e1", "1e2", "1e3", "1e4", "1e5", "1e6")
 DRAWN, PRESSED = 0.05, 0.005
 # Forces and multipliers are known to Newton's tolerance, 1e-11 of the forces; what a node's cone adds is the ratio of

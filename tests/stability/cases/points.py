@@ -29,16 +29,17 @@ LAW = ("-contact_basis", "dual", "-contact_normals", "committed", "-contact_deci
 
 
 def blocks(cells=(3, 4), contrast=1.0, size=1.0, stress=1.0, upper=(0.0, 1.0)):
-    """A block over another one; `size` and `stress`: units of length and of stress; `upper`: where the upper one is along x."""
+    """A block over another one, `contrast` times as stiff, the softer of them of the modulus YOUNG: a load of a hundredth of that is one that it
+    carries. `size` and `stress`: units of length and of stress; `upper`: where the upper one is along x."""
     box = {"type": "box", "poisson": 0.3, "small_strain": True}
     sides = ["upper", "lower"]
     low, high = (v * size for v in upper)
     return {
         "schema": 1,
         "bodies": sides,
-        "upper": {**box, "young": YOUNG * contrast * stress, "lower": [low, 0, 0], "upper": [high, size, size],
+        "upper": {**box, "young": YOUNG * max(1, contrast) * stress, "lower": [low, 0, 0], "upper": [high, size, size],
                   "cells": [cells[0], cells[0], 2]},
-        "lower": {**box, "young": YOUNG * stress, "lower": [0, 0, -size], "upper": [size, size, 0], "cells": [cells[1], cells[1], 2]},
+        "lower": {**box, "young": YOUNG * max(1, 1 / contrast) * stress, "lower": [0, 0, -size], "upper": [size, size, 0], "cells": [cells[1], cells[1], 2]},
         "supports": ["floor", "left", "front"],
         "floor": {"surface": "lower.zmin", "components": ["z"]},
         "left": {"surface": [f"{side}.xmin" for side in sides], "components": ["x"]},

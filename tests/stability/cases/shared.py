@@ -6,9 +6,9 @@ from cell import series
 YOUNG, POISSON = 1000.0, 0.3
 SHORTER = 0.01  # what presses the patch
 ROUNDED = 1e-8  # of a patch, over its force
-# Of an edge of shared nodes in contact, with standard multipliers: without one of them others may pull, contact lets these go, and what
-# is left presses a little less evenly: 5e-4 of the force at most in these cells.
-LET_GO = 1e-3
+# Of an edge of shared nodes in contact: where multipliers that are left out leave others to pull, contact lets these go, and what is left
+# presses a little less evenly: 2.3e-5 of the force at most in these cells, and 2e-3 where a node of one surface gave way to a shared one.
+LET_GO = 1e-4
 # Clamped layers of like meshes are the merged body but for what the meshes differ by; of unlike ones their stiffness lies between those of the
 # two merged bodies, within this.
 LIKE, UNLIKE = 1e-4, 0.02
