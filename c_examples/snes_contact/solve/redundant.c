@@ -29,6 +29,14 @@ static PetscBool has_component(const Interface *interface, PetscInt node, PetscI
   return (PetscBool)!(interface->components > 1 ? (removed >> component) & 1 : removed == 7);
 }
 
+/* Copies of a node on a crease count as one surface where multipliers are dual: the library lets one of them speak for all that have one
+ * face opposite, and what is left out here it cannot put together. Which of them is covered does not matter then. */
+static PetscBool counts(const Interface *interface, PetscInt node)
+{
+  if (interface->n_copies && interface->method.multiplier_basis == STICKSLIP_BASIS_DUAL) return (PetscBool)(interface->copies[node] == 0);
+  return (PetscBool)(interface->states.coverage[node] > 0);
+}
+
 /* In how many surfaces of interfaces each non-mortar node is, where these cover it; one array an interface. */
 static PetscErrorCode count_surfaces(const Contact *contact, PetscInt *surfaces[])
 {
@@ -42,7 +50,7 @@ static PetscErrorCode count_surfaces(const Contact *contact, PetscInt *surfaces[
     const Interface *interface = &contact->interfaces[i];
     for (PetscInt k = 0; k < interface->n1 + interface->n2; k++, at++) {
       nodes[at] = interface->nodes[k];
-      ones[at]  = k >= interface->n1 || interface->states.coverage[k] > 0;
+      ones[at]  = k >= interface->n1 || counts(interface, k);
     }
   }
   PetscCall(directory_create(contact->mesh, n, nodes, &n_here, &directory));

@@ -6,7 +6,7 @@
 //!
 //! Where they have the same face opposite, dual gaps are the gap of the one point, in all copies: one condition, several multipliers.
 //! A side that stands off that face stays open where another side lies on it. Where all stand off, the edge itself touches, and where
-//! all lie on it, it is pressed flat: one copy carries the others, with the mean of their normals.
+//! all lie on it, it is pressed flat: one copy carries the others, with the normal of the face.
 
 use crate::error::Result;
 use crate::geometry::Vec3;
@@ -15,7 +15,7 @@ use crate::interface::data::options::Options;
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::filter::LEAST_OPPOSITION;
 use crate::interface::pairing::weak::{self, Carrier};
-use crate::memory::{self, Store, Stored};
+use crate::memory::{self, Store};
 use crate::normal::SMALLEST_SUM;
 
 /// A copy that is farther open than so many facets at t_n is not taken to close within the step: where the sides of an edge lean over the
@@ -63,15 +63,14 @@ impl Copies<'_> {
 pub struct Edge {
     /// All of them; the first one carries the others.
     pub sides: Vec<usize>,
-    /// nu of the step, of all of them.
+    /// nu of the step, of all of them: the normal of the face, along which a smooth face pushes whatever lies on it.
     pub normal: Vec3,
 }
 
 impl Edge {
-    /// The mean of the sides' normals; none where they cancel.
-    pub fn mean(sides: &[usize], normal: impl Fn(usize) -> Vec3) -> Option<Vec3> {
-        let sum: Vec3 = sides.iter().map(|&a| normal(a)).sum();
-        (sum.norm() > SMALLEST_SUM).then(|| sum.normalize())
+    /// The sum of the sides' normals.
+    pub fn sum(&self, normal: &dyn Fn(usize) -> Vec3) -> Vec3 {
+        self.sides.iter().fold(Vec3::zeros(), |sum, &a| sum + normal(a))
     }
 }
 
@@ -90,15 +89,19 @@ impl Corners {
         let may_touch = |a: usize| coverable[a] && (copies.has_multiplier)(a);
         let touches = |a: usize| may_touch(a) && copies.is_covered(h, a);
         if copies.options.tells_copies_apart() {
-            let faces = opposite(copies, h)?;
-            let face_of = |a: usize| faces[a].filter(|_| touches(a));
+            let sums = opposite(copies, h)?;
+            let face_of = |a: usize| (touches(a) && sums[a].norm() > SMALLEST_SUM).then(|| -sums[a].normalize());
             for group in copies.pairs.chunk_by(|p, q| p[0] == q[0]).filter(|group| group[0][0] < group[0][1]) {
-                let nodes = || std::iter::once(group[0][0]).chain(group.iter().map(|p| p[1]));
-                let seen = nodes().filter_map(face_of).stored()?;
-                // What a side will meet that meets nothing yet: the face of a copy that it looks at.
-                let looks_at = |a: usize| seen.iter().copied().find(|face| face.dot(&h.normals[a]) > LEAST_OPPOSITION);
-                let face = |a: usize| face_of(a).or_else(|| looks_at(a).filter(|_| may_touch(a)));
-                let sides = nodes().filter_map(|node| face(node).map(|face| Side { node, face })).stored()?;
+                let mut sides = Vec::new();
+                for &[first, other] in [[group[0][1], group[0][0]]].iter().chain(group) {
+                    // What a side will meet that meets nothing yet: the face of a copy that it looks at.
+                    let looks_at = |face: &Vec3| may_touch(other) && face.dot(&h.normals[other]) > LEAST_OPPOSITION;
+                    let of_others = || group.iter().find_map(|&[_, b]| face_of(b).filter(looks_at));
+                    let of_copy = || face_of(first).filter(looks_at).or_else(of_others);
+                    if let Some(face) = face_of(other).or_else(of_copy) {
+                        sides.store(Side { node: other, face })?;
+                    }
+                }
                 corners.tell_apart(sides, h, carriers)?;
             }
         }
@@ -121,19 +124,21 @@ impl Corners {
         while let Some(&Side { face, .. }) = sides.first() {
             let has_it = |side: &Side| side.face.dot(&face) >= ONE_FACE;
             let any_lies = sides.iter().any(|side| has_it(side) && lies(side));
-            let mut touching = Vec::new();
+            let (mut touching, mut faces) = (Vec::new(), Vec3::zeros());
             for side in sides.iter().filter(|side| has_it(side)) {
-                match lies(side) == any_lies {
-                    true => touching.store(side.node)?,
-                    false => self.keep_open(side.node, h.x1.len())?,
+                if lies(side) == any_lies {
+                    touching.store(side.node)?;
+                    faces += side.face;
+                } else {
+                    self.keep_open(side.node, h.x1.len())?;
                 }
             }
             sides.retain(|side| !has_it(side));
-            if let ([first, others @ ..], Some(normal)) = (&touching[..], Edge::mean(&touching, |a| h.normals[a]))
+            if let [first, others @ ..] = &touching[..]
                 && !others.is_empty()
             {
                 others.iter().try_for_each(|&a| hand_over(carriers, a, *first, h.x1.len()))?;
-                self.edges.store(Edge { sides: touching, normal })?;
+                self.edges.store(Edge { sides: touching, normal: faces.normalize() })?;
             }
         }
         Ok(())
@@ -169,13 +174,25 @@ fn height(h: &History, a: usize) -> f64 {
     h.gap[a].dot(&h.normals[a]) / h.coverage[a]
 }
 
-/// Per node the normal of what the corners of its facets have opposite, the surface of the points x - g / m; none where too little is covered.
-fn opposite(copies: &Copies, h: &History) -> Result<Vec<Option<Vec3>>> {
-    let unknown = Vec3::repeat(f64::NAN); // a corner with such a neighbour has no normal
-    let point = |a: usize| if copies.is_covered(h, a) { h.x1[a] - h.gap[a] / h.coverage[a] } else { unknown };
-    let points = (0..h.x1.len()).map(point).stored()?;
-    let sums = copies.surface.sums_of_normals(&points)?;
-    sums.into_iter().map(|sum| (sum.norm() > SMALLEST_SUM).then(|| -sum.normalize())).stored()
+/// Per node minus the sum of the normals of what the corners of its facets have opposite, the surface of the points x - g / m; 0 where too
+/// little is covered.
+fn opposite(copies: &Copies, h: &History) -> Result<Vec<Vec3>> {
+    let mut points = memory::copied(&h.x1)?;
+    for (a, point) in points.iter_mut().enumerate() {
+        // A corner with a neighbour that is nowhere has no normal.
+        *point = if copies.is_covered(h, a) { *point - h.gap[a] / h.coverage[a] } else { Vec3::repeat(f64::NAN) };
+    }
+    // Nodes in the middle of edges and facets, which have no gap of their own.
+    for f in 0..copies.surface.host_facets() {
+        let (nodes, n) = (copies.surface.host_nodes(f), copies.surface.multipliers(f));
+        for k in n..nodes.len() {
+            points[nodes[k]] = match nodes.get(k - n) {
+                Some(&corner) if k < 2 * n => (points[corner] + points[nodes[(k - n + 1) % n]]) / 2.0,
+                _ => nodes[..n].iter().map(|&corner| points[corner]).sum::<Vec3>() / n as f64,
+            };
+        }
+    }
+    copies.surface.sums_of_normals(&points)
 }
 
 /// `from` and all that it carries are carried by `to`, or by who carries that.
@@ -183,7 +200,10 @@ fn hand_over(carriers: &mut Vec<Vec<Carrier>>, from: usize, to: usize, n: usize)
     if carriers.is_empty() {
         *carriers = memory::defaults(n)?;
     }
-    let heirs = if carriers[to].is_empty() { memory::filled((to, 1.0), 1)? } else { memory::copied(&carriers[to])? };
+    let mut heirs = memory::copied(&carriers[to])?;
+    if heirs.is_empty() {
+        heirs.store((to, 1.0))?;
+    }
     for all in carriers.iter_mut() {
         if let Some(k) = all.iter().position(|&(b, _)| b == from) {
             let (_, share) = all.swap_remove(k);

@@ -17,7 +17,6 @@ use crate::interface::data::options::{Options, Weights};
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::analytic;
 use crate::interface::pairing::boxes::Aabb;
-use crate::interface::pairing::corners::Edge;
 use crate::interface::pairing::filter::Filter;
 use crate::interface::pairing::given::Given;
 use crate::law::SlipMeasure;
@@ -54,9 +53,14 @@ pub fn refuse_turn<const N: usize>(
     for (a, sum) in sums.iter().enumerate().filter(|(a, _)| kept(*a)) {
         // One that cannot be averaged is refused in its own words where it is needed.
         if let Some(normal) = memory::if_accepted(normal::nodal_normal(*sum, a))? {
-            let of_edge = |edge: &Edge| Edge::mean(&edge.sides, |b| -sums[b].normalize());
-            let normal = given.step.pairing.corners.edge(a).and_then(of_edge).unwrap_or(normal);
-            most = larger(most, &given.step.committed_normal(a), &normal, a);
+            let committed = &given.history().normals;
+            let [from, to] = match given.step.pairing.corners.edge(a) {
+                Some(edge) => {
+                    [edge.sum(&|b| committed[b]), edge.sum(&|b| -sums[b].normalize())].map(|sum| sum.normalize())
+                }
+                None => [committed[a], normal],
+            };
+            most = larger(most, &from, &to, a);
         }
     }
     let (angle, node) = most;
