@@ -29,11 +29,14 @@ static PetscBool has_component(const Interface *interface, PetscInt node, PetscI
   return (PetscBool)!(interface->components > 1 ? (removed >> component) & 1 : removed == 7);
 }
 
-/* Copies of a node on a crease count as one surface where multipliers are dual: the library lets one of them speak for all that have one
- * face opposite, and what is left out here it cannot put together. Which of them is covered does not matter then. */
+/* Copies of a node on a crease count as one surface where multipliers are dual and nodes may be carried: the library lets one of them speak
+ * for all that have one face opposite, and what is left out here it cannot put together. Which of them is covered does not matter then. */
 static PetscBool counts(const Interface *interface, PetscInt node)
 {
-  if (interface->n_copies && interface->method.multiplier_basis == STICKSLIP_BASIS_DUAL) return (PetscBool)(interface->copies[node] == 0);
+  const stickslip_method *method     = &interface->method;
+  const PetscBool         told_apart = (PetscBool)(method->multiplier_basis == STICKSLIP_BASIS_DUAL &&
+                                           method->weak_coverage != STICKSLIP_WEAK_COVERAGE_NONE);
+  if (interface->n_copies && told_apart) return (PetscBool)(interface->copies[node] == 0);
   return (PetscBool)(interface->states.coverage[node] > 0);
 }
 

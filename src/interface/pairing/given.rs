@@ -37,7 +37,7 @@ impl Step {
         }
     }
 
-    /// nu_A(t_n): of a copy that carries others that of the edge.
+    /// nu_A(t_n): of copies that touch as one that of their edge.
     pub fn committed_normal(&self, a: usize) -> Vec3 {
         self.pairing.corners.edge(a).map_or(self.history.normals[a], |edge| edge.normal)
     }
