@@ -32,7 +32,7 @@ pub fn offset_motion(
         Some(points) => element_rule::offsets((frame, segment, points), &raised, one, slopes),
         None => {
             let rule = rule.for_derivatives();
-            Kinds::of(frame, segment).dispatch(Offsets { frame, segment, raised: &raised, rule, one, slopes });
+            Kinds::of(frame, segment).plain(Offsets { frame, segment, raised: &raised, rule, one, slopes });
         }
     }
 }
