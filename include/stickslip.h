@@ -214,7 +214,7 @@
 
 /// Forces use the projected traction (the paper's form). Same solutions.
 /// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); condensation; the tangent by sums of several
-/// handles.
+/// handles; derivatives by positions of t_n and by parameters.
 #define STICKSLIP_FORM_AUGMENTED 1
 
 /// P(g[n_n,x] - g[n_{n+1},x]): invariant under rigid motion within a step. Default.
@@ -243,7 +243,7 @@
 /// Weights frozen at the last commit, and what overlaps there counts as closed: a step need not part it. The work of the contact forces over a
 /// step is then never positive, whatever slides and turns: for dynamics.
 /// Not with (UNSUPPORTED): the paper's slip measure (STICKSLIP_SLIP_PAPER); points that decide (STICKSLIP_DECISION_POINTS);
-/// offsets.
+/// offsets; derivatives by positions of t_n and by parameters.
 #define STICKSLIP_WEIGHTS_PERSISTENT 4
 
 /// Of now, unless weights are frozen, points decide or the host gives normals: then of the last commit. Default.
@@ -355,7 +355,7 @@
 /// (weak_coverage > 0, the default of dual multipliers); an analytic mortar side; facets with mid nodes; a law of one's own;
 /// offsets and weights of now (STICKSLIP_WEIGHTS_CURRENT); parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE); nodes
 /// that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes (stickslip_interface_set_committed) and friction
-/// (STICKSLIP_FRICTION_COULOMB); condensation; heat.
+/// (STICKSLIP_FRICTION_COULOMB); condensation; heat; derivatives by positions of t_n and by parameters.
 #define STICKSLIP_DECISION_POINTS 1
 
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
@@ -597,7 +597,7 @@
 
 /// Orthotropic friction: mu along a direction, mu_across across it. Tractions stick within an ellipse, and slip goes at a right angle to
 /// its border.
-/// Not with (UNSUPPORTED): lines.
+/// Not with (UNSUPPORTED): lines; derivatives by positions of t_n and by parameters.
 #define STICKSLIP_LAW_ORTHOTROPIC 3
 
 /// The most numbers a node that a law may remember.
@@ -1322,6 +1322,52 @@ typedef struct stickslip_heat_nodes {
   /// The area that the means are of [L^2].
   double *area;
 } stickslip_heat_nodes;
+
+/// What a residual depends on besides multipliers: where products with its derivatives go (`stickslip_interface_adjoint`), n1 and n2
+/// being the nodes of both sides. A NULL member is not wanted.
+typedef struct stickslip_gradient {
+  /// sizeof(stickslip_gradient).
+  uint64_t struct_size;
+  /// By the positions at t_n of the non-mortar nodes (3 n1; plane and axisymmetric models: 2 n1).
+  double *previous1;
+  /// By those of the mortar nodes (3 n2).
+  double *previous2;
+  /// By the positions of now: the tangent's columns, also of nodes without equations (3 n1).
+  double *now1;
+  /// Likewise (3 n2). Not of a mortar side of which no node has an equation.
+  double *now2;
+  /// By the coefficients of friction (n1).
+  double *friction;
+  /// By the largest shear traction (1).
+  double *shear_limit;
+  /// By the offsets of the non-mortar nodes (n1).
+  double *offsets1;
+  /// By those of the mortar nodes (n2).
+  double *offsets2;
+} stickslip_gradient;
+
+/// A direction in what a residual depends on (`stickslip_interface_sensitivity`): the members of `stickslip_gradient`. A NULL member is
+/// zero.
+typedef struct stickslip_direction {
+  /// sizeof(stickslip_direction).
+  uint64_t struct_size;
+  /// Of the positions at t_n [L].
+  const double *previous1;
+  /// Likewise [L].
+  const double *previous2;
+  /// Of the positions of now [L].
+  const double *now1;
+  /// Likewise [L].
+  const double *now2;
+  /// Of the coefficients of friction [-].
+  const double *friction;
+  /// Of the largest shear traction [F/L^2].
+  const double *shear_limit;
+  /// Of the offsets [L].
+  const double *offsets1;
+  /// Likewise [L].
+  const double *offsets2;
+} stickslip_direction;
 
 #ifdef __cplusplus
 extern "C" {
@@ -2679,7 +2725,8 @@ int32_t stickslip_rigid_destroy(struct stickslip_rigid **rigid);
 /// of which kind they are: set it again after a restart, before the import. A law of the same kind goes on with the states that
 /// there are, and its numbers may change from step to step; another one begins with states 0, and no commit before it can be undone.
 ///
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS).
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); derivatives by positions of t_n and by
+/// parameters.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a number; an interface with another law), UNSUPPORTED (see
 /// above and the kinds).
@@ -2807,6 +2854,65 @@ int32_t stickslip_node_heat(const struct stickslip_heat *heat,
                             double *sides,
                             double *slopes,
                             double *conductance);
+
+/// How the residual depends on the positions of t_n, as triplets in the host's equation numbers and index base: rows are the equations of
+/// the residual, columns those of the displacements. For gradients of a run (docs/gradients.md, docs/formulation.md 18): with K_n the
+/// tangent of step n and B_n this matrix, both at its end and before its commit (or after `stickslip_interface_set_committed` of t_n),
+/// K_n^T a_n = - dj/d(u_n, lambda_n) - B_{n+1}^T a_{n+1}, backwards. Entries that are given twice add up.
+///
+/// x1 (3 n1), x2 (3 n2), lambda (3 n1): as for `stickslip_interface_states`. Outputs: rows, columns, values (capacity each), count. With all
+/// three arrays NULL only count is written, and capacity is not read. Units of an entry: its row's over [L].
+///
+/// The derivative is that of the nodes' states and of what is covered, carried and searched at t_n as they are. r_A and the row scale, whose
+/// derivative is multiplied by a row that is 0, are held.
+///
+/// Errors: as `stickslip_interface_residual` without sums; BUFFER_TOO_SMALL; UNSUPPORTED (docs/compose.md; where copies of a node touch as
+/// one).
+/// Cost: after a residual at the same point, an integration at t_n and the derivatives of all weights there, about twice a tangent. Counting
+/// costs the same. Allocates.
+int32_t stickslip_interface_previous_tangent_coo(struct stickslip_interface *interface,
+                                                 const double *x1,
+                                                 const double *x2,
+                                                 const double *lambda,
+                                                 int64_t capacity,
+                                                 int64_t *rows,
+                                                 int64_t *columns,
+                                                 double *values,
+                                                 int64_t *count);
+
+/// Products from the left: a^T d residual / d (what the residual depends on besides multipliers), of all members of `gradient` that are not
+/// NULL, in one pass. a is an adjoint, in the layout of the residual: a1 (3 n1) and a2 (3 n2) beside the forces, a_rows (3 n1, or n1 without
+/// friction) beside the rows of multipliers; 0 where there is no equation.
+///
+/// x1, x2, lambda: as for `stickslip_interface_previous_tangent_coo`. A node that slips at the threshold follows mu, or the limit if that
+/// decides; one whose threshold is 0 in this step (newly covered, or a copy of one in contact) neither.
+///
+/// Errors: as there, STRUCT_SIZE, UNSUPPORTED (now2 of a mortar side that does not move).
+/// Cost: as there where previous1 or previous2 are wanted, of a tangent where now1 or now2 are, O(pairs) else. Allocates.
+int32_t stickslip_interface_adjoint(struct stickslip_interface *interface,
+                                    const double *x1,
+                                    const double *x2,
+                                    const double *lambda,
+                                    const double *a1,
+                                    const double *a2,
+                                    const double *a_rows,
+                                    const struct stickslip_gradient *gradient);
+
+/// Products from the right: d residual / d (what the residual depends on besides multipliers) along a direction. For tangents of a run,
+/// forwards: K_n dy_n = - this, with the motion of step n - 1 in previous1 and previous2.
+///
+/// x1, x2, lambda: as for `stickslip_interface_previous_tangent_coo`. Outputs: force1 (3 n1), force2 (3 n2), rows (3 n1, or n1 without
+/// friction).
+///
+/// Errors and cost: as `stickslip_interface_adjoint`.
+int32_t stickslip_interface_sensitivity(struct stickslip_interface *interface,
+                                        const double *x1,
+                                        const double *x2,
+                                        const double *lambda,
+                                        const struct stickslip_direction *direction,
+                                        double *force1,
+                                        double *force2,
+                                        double *rows);
 
 #ifdef __cplusplus
 }  // extern "C"

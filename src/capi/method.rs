@@ -16,7 +16,7 @@ use crate::quadrature::{DEGREE_1, DEGREE_2, DEGREE_4, DEGREE_5, DEGREE_6, DEGREE
 pub const STICKSLIP_FORM_MULTIPLIER: i32 = 0;
 /// Forces use the projected traction (the paper's form). Same solutions.
 /// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); condensation; the tangent by sums of several
-/// handles.
+/// handles; derivatives by positions of t_n and by parameters.
 pub const STICKSLIP_FORM_AUGMENTED: i32 = 1;
 /// P(g[n_n,x] - g[n_{n+1},x]): invariant under rigid motion within a step. Default.
 pub const STICKSLIP_SLIP_OBJECTIVE: i32 = 0;
@@ -37,7 +37,7 @@ pub const STICKSLIP_WEIGHTS_REFERENCE: i32 = 3;
 /// Weights frozen at the last commit, and what overlaps there counts as closed: a step need not part it. The work of the contact forces over a
 /// step is then never positive, whatever slides and turns: for dynamics.
 /// Not with (UNSUPPORTED): the paper's slip measure (STICKSLIP_SLIP_PAPER); points that decide (STICKSLIP_DECISION_POINTS);
-/// offsets.
+/// offsets; derivatives by positions of t_n and by parameters.
 pub const STICKSLIP_WEIGHTS_PERSISTENT: i32 = 4;
 /// Of now, unless weights are frozen, points decide or the host gives normals: then of the last commit. Default.
 pub const STICKSLIP_NORMALS_AUTO: i32 = 0;
@@ -124,7 +124,7 @@ pub const STICKSLIP_DECISION_NODES: i32 = 0;
 /// (weak_coverage > 0, the default of dual multipliers); an analytic mortar side; facets with mid nodes; a law of one's own;
 /// offsets and weights of now (STICKSLIP_WEIGHTS_CURRENT); parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE); nodes
 /// that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes (stickslip_interface_set_committed) and friction
-/// (STICKSLIP_FRICTION_COULOMB); condensation; heat.
+/// (STICKSLIP_FRICTION_COULOMB); condensation; heat; derivatives by positions of t_n and by parameters.
 pub const STICKSLIP_DECISION_POINTS: i32 = 1;
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
 pub const STICKSLIP_ROW_SCALE_FORCE: i32 = 0;

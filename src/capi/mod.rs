@@ -90,6 +90,8 @@ mod law;
 
 mod heat;
 
+mod sensitivity;
+
 mod choice;
 mod fp_environment;
 mod guard;
@@ -128,6 +130,7 @@ pub use point::*;
 pub use preparation::*;
 pub use report::*;
 pub use rigid::*;
+pub use sensitivity::*;
 pub use space::*;
 pub use status::*;
 pub use surface::*;

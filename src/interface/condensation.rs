@@ -135,7 +135,7 @@ impl<const N: usize> Contact<N> {
                 return Ok(());
             }
         };
-        self.linearise_by_equations((x1, x2), &lambda, Extent::Whole, Some(&scales), (sinks.0, Some(sinks.1)))
+        self.linearise_by_equations((x1, x2), &lambda, Extent::Whole, (Some(&scales), None), (sinks.0, Some(sinks.1)))
     }
 
     /// Makes the plans of forces and constraints of these pairs at x.
@@ -193,7 +193,7 @@ impl<const N: usize> Contact<N> {
             }
         };
         let (mut nowhere, scales) = (|_: i64, _: i64, _: f64| {}, memory::filled(0.0, nonmortar.len())?);
-        self.linearise_by_equations(x, &lambda, Extent::Whole, Some(&scales), (&mut forces, Some(&mut nowhere)))
+        self.linearise_by_equations(x, &lambda, Extent::Whole, (Some(&scales), None), (&mut forces, Some(&mut nowhere)))
     }
 
     /// Turns the host's own matrix into the condensed one: the rows that change, with their new values.
@@ -218,7 +218,7 @@ impl<const N: usize> Contact<N> {
             (x1, x2),
             &lambda,
             Extent::Whole,
-            Some(&scales),
+            (Some(&scales), None),
             (&mut rows, Some(&mut constraints)),
         )?;
         rows.eliminate(&elimination, &self.rows()?, self.setup.surfaces())?;

@@ -11,7 +11,7 @@ use super::plan::pattern::System;
 use super::plan::whole::Plan;
 use super::stages::sums::NodeSums;
 use super::tangent::blocks::{Room, blocks};
-use super::tangent::by_equations::{ByEquations, Sink};
+use super::tangent::by_equations::{ByEquations, Numbers, Sink};
 use super::tangent::emission::Takers;
 use super::tangent::task::Task;
 use super::tangent::union::{Pairs, possible_pairs};
@@ -33,22 +33,24 @@ impl<const N: usize> Contact<N> {
     ) -> Result<()> {
         self.refuse_sums(sums)?;
         self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
-        self.linearise_by_equations((x1, x2), lambda, Extent::of(sums), None, (sink, None))
+        self.linearise_by_equations((x1, x2), lambda, Extent::of(sums), (None, None), (sink, None))
     }
 
-    /// The blocks of a tangent at the point of the last answers. `scales`: factors of the nodes' rows, in place of their own.
+    /// The blocks of a tangent at the point of the last answers. `scales`: factors of the nodes' rows, in place of their own; `numbers`:
+    /// likewise of the equations.
     pub(super) fn linearise_by_equations(
         &mut self,
         x: Positions,
         lambda: &[SVector<f64, N>],
         extent: Extent,
-        scales: Option<&[f64]>,
+        (scales, numbers): (Option<&[f64]>, Option<Numbers<N>>),
         (sink, constraints): (&mut dyn Sink, Option<&mut dyn Sink>),
     ) -> Result<()> {
+        let numbers = numbers.unwrap_or_else(|| Numbers::of(&self.setup));
         let here = Here { given: Given { setup: &self.setup, step: &self.step }, cache: &self.cache };
         let Linear { rooms, normals, nodes, turns, .. } = &mut self.linear;
-        let mut taker = ByEquations::new(&self.setup, sink);
-        let mut constraints = constraints.map(|sink| ByEquations::new(&self.setup, sink));
+        let mut taker = ByEquations::new(&self.setup, numbers, sink);
+        let mut constraints = constraints.map(|sink| ByEquations::new(&self.setup, numbers, sink));
         let takers: Takers<N> = (&mut taker, constraints.as_mut().map(|taker| taker as _));
         let mut takers = Some(takers);
         let mut make = |task: Task<N>, rooms: &mut [ThreadRoom<N>]| match takers.take() {
@@ -86,8 +88,9 @@ impl<const N: usize> Contact<N> {
         extent: Extent,
         (sink, constraints): (&mut dyn Sink, Option<&mut dyn Sink>),
     ) -> Result<()> {
-        let mut taker = ByEquations::new(&self.setup, sink);
-        let mut constraints = constraints.map(|sink| ByEquations::new(&self.setup, sink));
+        let numbers = Numbers::of(&self.setup);
+        let mut taker = ByEquations::new(&self.setup, numbers, sink);
+        let mut constraints = constraints.map(|sink| ByEquations::new(&self.setup, numbers, sink));
         let takers: Takers<N> = (&mut taker, constraints.as_mut().map(|taker| taker as _));
         let normals = memory::filled(Vec3::zeros(), self.setup.nonmortar.len())?;
         let moves = self.setup.effects.moves();

@@ -299,3 +299,83 @@ fn golden_heat_of_features_that_meet() {
     println!("heat {:.1e}, its tangent {:.1e}, {compared} cases", worst[0], worst[1]);
     assert!(compared > 0);
 }
+
+/// Through previous positions: derivatives of all weights, relative to the largest entry.
+const PREVIOUS: f64 = 1e-12;
+
+/// Rows of the residual, columns of the positions at t_n; and products from either side, of all at once.
+#[test]
+fn golden_derivatives_by_previous_positions() {
+    let (mut worst, mut compared) = ([0.0_f64; 2], 0);
+    for of in golden("golden_compose.json") {
+        for normals in ["committed", "current"] {
+            let coo = &of[normals]["dresidual_mult_dprev"];
+            if !coo.is_object() {
+                continue;
+            }
+            let case = Case::new(&of, normals, STICKSLIP_FORM_MULTIPLIER, false);
+            let ([_, a, b, n], what) = (case.ends(), format!("{} {normals}", name(&of)));
+            let ([x1, x2], lambda) = ([case.x[0].as_ptr(), case.x[1].as_ptr()], case.lambda.as_ptr());
+            let mut count = 0;
+            let mut call = |capacity: i64, at: [*mut i64; 2], values: *mut f64| {
+                let [rows, columns] = at;
+                ok!(stickslip_interface_previous_tangent_coo(
+                    case.handle,
+                    x1,
+                    x2,
+                    lambda,
+                    capacity,
+                    rows,
+                    columns,
+                    values,
+                    &mut count
+                ));
+                count as usize
+            };
+            let entries = call(0, [null_mut(); 2], null_mut());
+            let mut at = [vec![-1_i64; entries], vec![-1; entries]];
+            let mut values = vec![f64::NAN; entries];
+            let [rows, columns] = at.each_mut().map(|at| at.as_mut_ptr());
+            call(entries as i64, [rows, columns], values.as_mut_ptr());
+            let (mut k, mut expected) = (vec![0.0; n * b], vec![0.0; n * b]);
+            for ((i, j), v) in at[0].iter().zip(&at[1]).zip(&values) {
+                k[*i as usize * b + *j as usize] += v;
+            }
+            for ((i, j), v) in numbers(&coo["i"]).into_iter().zip(numbers(&coo["j"])).zip(numbers(&coo["v"])) {
+                if !case.is_absent(i as usize) {
+                    expected[i as usize * b + j as usize] = v;
+                }
+            }
+            let largest = max_abs(expected.iter().copied());
+            let error = difference(&k, &expected) / largest;
+            assert!(error <= PREVIOUS, "{what}: off by {error:e}");
+            worst[0] = worst[0].max(error);
+
+            // Numbers without a pattern, 0 where there is no equation.
+            let some = |i: usize| if case.is_absent(i) { 0.0 } else { ((7 * i + 3) % 11) as f64 - 5.0 };
+            let left: Vec<f64> = (0..n).map(some).collect();
+            let mut products = vec![f64::NAN; b];
+            let mut to = sized!(stickslip_gradient);
+            (to.previous1, to.previous2) = (products.as_mut_ptr(), products[a..].as_mut_ptr());
+            let [a1, a2, a_rows] = [left.as_ptr(), left[a..].as_ptr(), left[b..].as_ptr()];
+            ok!(stickslip_interface_adjoint(case.handle, x1, x2, lambda, a1, a2, a_rows, &to));
+            let right: Vec<f64> = (0..b).map(some).collect();
+            let mut change = vec![f64::NAN; n];
+            let mut along = sized!(stickslip_direction);
+            (along.previous1, along.previous2) = (right.as_ptr(), right[a..].as_ptr());
+            let p = change.as_mut_ptr();
+            ok!(stickslip_interface_sensitivity(case.handle, x1, x2, lambda, &along, p, p.add(a), p.add(b)));
+            (0..n).filter(|&i| case.is_absent(i)).for_each(|i| change[i] = 0.0);
+            let from_left: Vec<f64> = (0..b).map(|j| (0..n).map(|i| left[i] * k[i * b + j]).sum()).collect();
+            let from_right: Vec<f64> = (0..n).map(|i| (0..b).map(|j| right[j] * k[i * b + j]).sum()).collect();
+            for (products, expected) in [(&products, &from_left), (&change, &from_right)] {
+                let error = difference(products, expected) / max_abs(expected.iter().copied());
+                assert!(error <= PREVIOUS, "{what}: a product is off by {error:e}");
+                worst[1] = worst[1].max(error);
+            }
+            compared += 1;
+        }
+    }
+    println!("by previous positions {:.1e}, products {:.1e}, {compared} cases", worst[0], worst[1]);
+    assert!(compared > 0);
+}

@@ -14,6 +14,7 @@ from ._heat import Heats
 from ._inspection import Inspection
 from ._laws import Laws
 from ._library import call, ffi, lib, value_of
+from ._sensitivity import Sensitivities
 from .errors import Error, InvalidValue
 from .surface import Surface
 
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     import scipy.sparse
 
 
-class Interface(Heats, Inspection, Laws):
+class Interface(Heats, Inspection, Laws, Sensitivities):
     """Two surfaces in contact.
 
     ``x1`` and ``x2`` are current positions of the non-mortar and the mortar nodes, (n1, d) and (n2, d) [L], with d = 3, or

@@ -132,6 +132,13 @@ rows! {
     Meaningless [Sums Carried] "weakly covered nodes are carried within one handle only" [Carried];
     Meaningless [SumsTangent Augmented] "it couples pairs of different handles" [Augmented];
     NotBuilt [Heat Points] "pressures are of points" [Points];
+    NotBuilt [Derivatives Augmented] "forces follow the positions of t_n, too" [Augmented];
+    NotBuilt [Derivatives WeightsCommitted] "forces follow the positions of t_n, too" [WeightsCommitted];
+    NotBuilt [Derivatives KeptOverlaps] "what counts as closed follows the positions of t_n" [KeptOverlaps];
+    NotBuilt [Derivatives Points] "points remember tractions" [Points];
+    NotBuilt [Derivatives OwnLaw] "what it remembers is the host's" [OwnLaw];
+    NotBuilt [Derivatives Orthotropic] "its axes follow the positions of all steps" [Orthotropic];
+    NotBuilt [Derivatives Shared] "a row is of the gaps of all handles" [Shared];
     Meaningless [ShapeOffsets Analytic] "it is one" [];
     Meaningless [ShapeOffsets MidNodes] "they follow a shape by themselves; put these nodes on it" [];
 }

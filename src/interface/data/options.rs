@@ -349,6 +349,7 @@ impl Options {
             (Feature::NormalsNow, self.follows_normals()),
             (Feature::WeightsNow, is_now),
             (Feature::FrozenWeights, !is_now),
+            (Feature::WeightsCommitted, self.effective_weights() == Weights::Committed),
             (Feature::KeptOverlaps, self.keeps_overlaps()),
             (Feature::PaperSlip, self.slip == SlipMeasure::Paper),
             (Feature::Friction, self.friction == Friction::Coulomb),

@@ -90,18 +90,25 @@ pub fn gather(all: Vec<Carrier>) -> Result<Vec<Carrier>> {
     Ok(all)
 }
 
-/// Per node the nodes that share a facet with it, each with the facets' area, twice at an edge: as int N_A N_B da on
-/// parallelograms.
+/// How often a facet's area counts between its i-th and its l-th node: twice at an edge, as int N_A N_B da on parallelograms; `None`:
+/// their normals differ too much.
+pub fn share(surface: &Surface, history: &History, (f, i, l): (usize, usize, usize)) -> Option<f64> {
+    let nodes = surface.rows(f).as_slice();
+    let diagonal = nodes.len() == 4 && (i + 2) % 4 == l;
+    let aligned = history.normals[nodes[i]].dot(&history.normals[nodes[l]]) >= LEAST_ALIGNMENT;
+    aligned.then_some(if diagonal { 1.0 } else { 2.0 })
+}
+
+/// Per node the nodes that share a facet with it, each with the facets' area, as often as it counts.
 pub fn links(surface: &Surface, history: &History) -> Result<Vec<Vec<Carrier>>> {
     let mut links = memory::defaults::<Vec<_>>(surface.len())?;
     for f in 0..surface.facets.len() {
         let area = surface.facet(f, &history.x1).area_vector().norm();
         let nodes = surface.rows(f).as_slice();
         for (i, &a) in nodes.iter().enumerate() {
-            for (j, &b) in nodes.iter().enumerate().filter(|&(j, _)| j != i) {
-                let diagonal = nodes.len() == 4 && (i + 2) % 4 == j;
-                if history.normals[a].dot(&history.normals[b]) >= LEAST_ALIGNMENT {
-                    links[a].store((b, if diagonal { area } else { 2.0 * area }))?;
+            for (l, &b) in nodes.iter().enumerate().filter(|&(l, _)| l != i) {
+                if let Some(times) = share(surface, history, (f, i, l)) {
+                    links[a].store((b, times * area))?;
                 }
             }
         }

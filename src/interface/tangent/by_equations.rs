@@ -5,7 +5,7 @@ use super::emission::{Blocks, Directions, MortarBlock, Place, Span, Weights};
 use crate::geometry::Vec3;
 use crate::interface::data::facet_nodes::FacetNodes;
 use crate::interface::data::setup::Setup;
-use crate::interface::data::surface::{NO_EQUATION, node_equations};
+use crate::interface::data::surface::NO_EQUATION;
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 
 /// Takes a tangent entry: (row equation, column equation, value).
@@ -33,26 +33,55 @@ impl<F: FnMut(i64, i64, f64)> Sink for F {
     }
 }
 
+/// The equations of the displacements of both sides, and of the multipliers.
+#[derive(Clone, Copy)]
+pub struct Numbers<'a, const N: usize> {
+    /// Of the nodes of both sides.
+    pub sides: [&'a [[i64; 3]]; 2],
+    /// Of the non-mortar nodes.
+    pub multipliers: &'a [[i64; N]],
+}
+
+impl<'a, const N: usize> Numbers<'a, N> {
+    /// The host's.
+    pub fn of(setup: &'a Setup<N>) -> Self {
+        let (one, two) = setup.surfaces();
+        Numbers { sides: [&one.equations, &two.equations], multipliers: &setup.multiplier_equations }
+    }
+
+    /// Of a place.
+    pub fn place(&self, place: Place) -> &'a [i64] {
+        match place {
+            Place::Displacement(node) => match node.checked_sub(self.sides[0].len()) {
+                None => &self.sides[0][node],
+                Some(c) => &self.sides[1][c],
+            },
+            Place::Multiplier(a) => &self.multipliers[a],
+        }
+    }
+}
+
 /// Gives blocks to a [`Sink`].
 pub struct ByEquations<'a, const N: usize> {
     setup: &'a Setup<N>,
+    numbers: Numbers<'a, N>,
     sink: &'a mut dyn Sink,
     facet: usize,
     own: Equations,
 }
 
 impl<'a, const N: usize> ByEquations<'a, N> {
-    /// To this one.
-    pub fn new(setup: &'a Setup<N>, sink: &'a mut dyn Sink) -> Self {
-        ByEquations { setup, sink, facet: 0, own: Equations::none() }
+    /// To this one, by these numbers.
+    pub fn new(setup: &'a Setup<N>, numbers: Numbers<'a, N>, sink: &'a mut dyn Sink) -> Self {
+        ByEquations { setup, numbers, sink, facet: 0, own: Equations::none() }
     }
 
     fn span(&self, span: Span) -> Equations {
-        let two = &self.setup.mortar;
+        let two = self.numbers.sides[1];
         match span {
             Span::Own => self.own,
-            Span::Mortar(j) => Equations::of(&two.facets[j], &two.equations),
-            Span::Group(nodes) => Equations::of(&nodes, &two.equations),
+            Span::Mortar(j) => Equations::of(&self.setup.mortar.facets[j], two),
+            Span::Group(nodes) => Equations::of(&nodes, two),
         }
     }
 
@@ -60,14 +89,7 @@ impl<'a, const N: usize> ByEquations<'a, N> {
     fn row_of(&self, place: Place) -> &'a [i64] {
         match place {
             Place::Multiplier(a) if !self.setup.nodes.acts(a) => &[NO_EQUATION; 3][..N],
-            _ => self.place(place),
-        }
-    }
-
-    fn place(&self, place: Place) -> &'a [i64] {
-        match place {
-            Place::Displacement(node) => node_equations(self.setup.surfaces(), node),
-            Place::Multiplier(a) => &self.setup.multiplier_equations[a],
+            _ => self.numbers.place(place),
         }
     }
 
@@ -77,7 +99,7 @@ impl<'a, const N: usize> ByEquations<'a, N> {
         let mut equations = [[NO_EQUATION; MAX_CORNERS]; N];
         for (k, &a) in facet.as_slice().iter().enumerate().filter(|(_, a)| self.setup.nodes.acts(**a)) {
             for n in 0..N {
-                equations[n][k] = self.setup.multiplier_equations[a][n];
+                equations[n][k] = self.numbers.multipliers[a][n];
             }
         }
         equations
@@ -86,8 +108,7 @@ impl<'a, const N: usize> ByEquations<'a, N> {
 
 impl<const N: usize> Blocks<N> for ByEquations<'_, N> {
     fn begin(&mut self, f: usize) {
-        let one = &self.setup.nonmortar;
-        (self.facet, self.own) = (f, Equations::of(&one.facets[f], &one.equations));
+        (self.facet, self.own) = (f, Equations::of(&self.setup.nonmortar.facets[f], self.numbers.sides[0]));
     }
 
     fn forces(&mut self, rows: Span, columns: Span, values: &[[[[f64; MAX_NODES]; 3]; 3]]) {
@@ -117,7 +138,7 @@ impl<const N: usize> Blocks<N> for ByEquations<'_, N> {
     }
 
     fn mortar(&mut self, block: &MortarBlock) {
-        let (own, two) = (self.own, &self.setup.mortar.equations);
+        let (own, two) = (self.own, self.numbers.sides[1]);
         for (c, &node) in block.rows.iter().enumerate() {
             let column = |k: usize, equations: &[i64; 3], sink: &mut dyn Sink| {
                 let values = block.values[k].map(|rows| rows.map(|nodes| nodes[c]));
@@ -129,13 +150,13 @@ impl<const N: usize> Blocks<N> for ByEquations<'_, N> {
     }
 
     fn node(&mut self, row: Place, column: Place, values: &[f64]) {
-        self.sink.add_block(self.row_of(row), self.place(column), values);
+        self.sink.add_block(self.row_of(row), self.numbers.place(column), values);
     }
 
     fn multiplier_row(&mut self, row: Place, columns: &[(usize, Place)], n: &Weights, nu: &Directions) {
-        let rows = self.place(row);
+        let rows = self.numbers.place(row);
         for &(k, column) in columns {
-            let multipliers = self.place(column);
+            let multipliers = self.numbers.place(column);
             if N == 1 {
                 self.sink.add_block(rows, multipliers, (nu[k] * n[k]).as_slice());
             } else {
@@ -147,7 +168,7 @@ impl<const N: usize> Blocks<N> for ByEquations<'_, N> {
     }
 
     fn diagonal(&mut self, a: usize, values: &[f64]) {
-        for (equation, value) in self.setup.multiplier_equations[a].iter().zip(values) {
+        for (equation, value) in self.numbers.multipliers[a].iter().zip(values) {
             self.sink.add_block(&[*equation], &[*equation], &[*value]);
         }
     }

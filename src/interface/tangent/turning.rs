@@ -49,6 +49,16 @@ pub struct NodeTurn<const N: usize> {
     offset: f64,
 }
 
+/// Which normals turn, and with what.
+pub struct Turning<'a, 'b> {
+    /// The positions.
+    pub x1: &'a [Vec3],
+    /// Per node the sum of the corner normals around it there.
+    pub corner_sums: &'b [Vec3],
+    /// Whether a node's normal is that of these positions.
+    pub turns: &'b dyn Fn(usize) -> bool,
+}
+
 /// Derivatives with respect to the normals of the nodes, at some positions.
 pub struct Turns<'a, const N: usize> {
     x1: &'a [Vec3],
@@ -57,16 +67,29 @@ pub struct Turns<'a, const N: usize> {
 
 impl<'a, const N: usize> Turns<'a, N> {
     /// At the sums and the answers of x1, in `nodes`; `scale`: the factor of a node's rows. `None`: the normals are those of t_n.
-    #[inline(never)] // two callers, one of them seldom
     pub fn at(
         given: Given<N>,
         (x1, lambda): (&'a [Vec3], &[SVector<f64, N>]),
-        (pairs, sums, responses): (Weighted, &[NodeSums], &Responses<N>),
+        of: (Weighted, &[NodeSums], &Responses<N>),
         normals: &[Vec3],
         scale: &dyn Fn(usize) -> f64,
         nodes: &'a mut Vec<NodeTurn<N>>,
     ) -> Result<Option<Turns<'a, N>>> {
         let Some(now) = &given.step.now else { return Ok(None) };
+        let turning = Turning { x1, corner_sums: &now.sums, turns: &|a| !given.step.pairing.keeps_normal[a] };
+        Turns::of(given, turning, (lambda, of), normals, scale, nodes).map(Some)
+    }
+
+    /// The same by normals of other positions, of the nodes that have them.
+    #[inline(never)] // two callers, one of them seldom
+    pub fn of(
+        given: Given<N>,
+        turning: Turning<'a, '_>,
+        (lambda, (pairs, sums, responses)): (&[SVector<f64, N>], (Weighted, &[NodeSums], &Responses<N>)),
+        normals: &[Vec3],
+        scale: &dyn Fn(usize) -> f64,
+        nodes: &'a mut Vec<NodeTurn<N>>,
+    ) -> Result<Turns<'a, N>> {
         let (setup, carried) = (given.setup, &responses.carried);
         let shared = if carried.contains(&true) { carriers_sums(given, sums, carried, normals)? } else { Vec::new() };
         let augmented = setup.options.form == Form::Augmented;
@@ -77,7 +100,7 @@ impl<'a, const N: usize> Turns<'a, N> {
         let turn = |a: usize| -> Result<NodeTurn<N>> {
             let sum = shared.binary_search_by_key(&a, |(b, _)| *b).map_or(&sums[a], |at| &shared[at].1);
             let is_carried = carried.get(a).is_some_and(|c| *c);
-            let fixed = given.step.pairing.keeps_normal[a];
+            let fixed = !(turning.turns)(a);
             let turn = match is_carried {
                 true => Default::default(),
                 false => {
@@ -92,7 +115,11 @@ impl<'a, const N: usize> Turns<'a, N> {
                 (false, 1) => Mat3::identity() * lambda[a][0],
                 (false, _) => Mat3::zeros(),
             };
-            let normal = if fixed { Mat3::zeros() } else { nodal_normal_derivative(now.sums[a], &setup.nodes.free[a]) };
+            let normal = if fixed {
+                Mat3::zeros()
+            } else {
+                nodal_normal_derivative(turning.corner_sums[a], &setup.nodes.free[a])
+            };
             Ok(NodeTurn {
                 normal,
                 row: turn.drow_dnormal * normal * if setup.nodes.is_own(a) { scale(a) } else { 0.0 },
@@ -104,7 +131,7 @@ impl<'a, const N: usize> Turns<'a, N> {
         };
         nodes.clear();
         (0..lambda.len()).try_for_each(|a| nodes.store(turn(a)?))?;
-        Ok(Some(Turns { x1, nodes }))
+        Ok(Turns { x1: turning.x1, nodes })
     }
 
     /// dp_A / dnu_A, as the law has it.
@@ -127,11 +154,16 @@ impl<'a, const N: usize> Turns<'a, N> {
         one.normal_derivatives((f, k), self.x1, &self.nodes[one.host_nodes(f)[k]].normal)
     }
 
+    /// Of the row of that node likewise, in the first rows.
+    pub fn of_row(&self, given: Given<N>, (f, k): (usize, usize)) -> NormalDerivatives {
+        let one = &given.setup.nonmortar;
+        one.normal_derivatives((f, k), self.x1, &square(&self.nodes[one.host_nodes(f)[k]].row))
+    }
+
     /// Adds to the row of the k-th node of a facet of the host, `[column][j][i]`, its own nodes first.
     pub fn add_row(&self, given: Given<N>, (f, k): (usize, usize), row: &mut [NodeBlock]) {
-        let one = &given.setup.nonmortar;
-        let d = one.normal_derivatives((f, k), self.x1, &square(&self.nodes[one.host_nodes(f)[k]].row));
-        d.as_slice()
+        self.of_row(given, (f, k))
+            .as_slice()
             .iter()
             .for_each(|(column, d)| (0..9).for_each(|ij| row[*column][ij / 3][ij % 3] += d[(ij % 3, ij / 3)]));
     }

@@ -1,0 +1,253 @@
+//! Derivatives of a residual by what it depends on besides the unknowns, through the handle (docs/formulation.md 18): as a matrix, from
+//! the left (an adjoint), from the right (a direction).
+
+use super::compose::Feature;
+use super::contact::Contact;
+use super::data::active::Active;
+use super::data::extent::Extent;
+use super::data::options::Weights;
+use super::heat::rows::rows;
+use super::pairing::given::Given;
+use super::sensitivity::{At, Column, Take, Wanted, derivatives};
+use super::stages::acting::acting;
+use super::tangent::by_equations::{Numbers, Sink};
+use super::tangent::emission::Place;
+use super::tangent::turning::{Turning, Turns};
+use crate::error::{Error, Kind, Result};
+use crate::geometry::Vec3;
+use crate::memory::{self, Stored};
+use nalgebra::SVector;
+use std::ops::Range;
+
+/// Where everything stands in the vectors of residuals and of what they depend on.
+#[derive(Clone, Copy, Debug)]
+pub struct Layout {
+    /// Nodes of both sides.
+    nodes: [usize; 2],
+    /// Components of a multiplier.
+    components: usize,
+}
+
+impl Layout {
+    /// What the residual's forces on one side have, three numbers a node; of what it depends on: the positions of now.
+    pub fn now(&self, side: usize) -> Range<usize> {
+        let first = 3 * self.nodes[0] * side;
+        first..first + 3 * self.nodes[side]
+    }
+
+    /// The residual's rows of multipliers.
+    pub fn rows(&self) -> Range<usize> {
+        let first = 3 * (self.nodes[0] + self.nodes[1]);
+        first..first + self.components * self.nodes[0]
+    }
+
+    /// The positions at t_n.
+    pub fn previous(&self, side: usize) -> Range<usize> {
+        let (all, now) = (3 * (self.nodes[0] + self.nodes[1]), self.now(side));
+        all + now.start..all + now.end
+    }
+
+    /// mu of the non-mortar nodes.
+    pub fn friction(&self) -> Range<usize> {
+        let first = self.previous(1).end;
+        first..first + self.nodes[0]
+    }
+
+    /// The largest shear traction.
+    pub fn shear_limit(&self) -> usize {
+        self.friction().end
+    }
+
+    /// The offsets.
+    pub fn offsets(&self, side: usize) -> Range<usize> {
+        let first = self.shear_limit() + 1 + self.nodes[0] * side;
+        first..first + self.nodes[side]
+    }
+
+    /// The first place of a column.
+    fn place(&self, column: Column) -> usize {
+        match column {
+            Column::Previous(node) => self.previous(0).start + 3 * node,
+            Column::Friction(a) => self.friction().start + a,
+            Column::ShearLimit => self.shear_limit(),
+            Column::Offset(node) => self.offsets(0).start + node,
+        }
+    }
+
+    /// Numbers of a residual.
+    pub fn residual(&self) -> usize {
+        self.rows().end
+    }
+
+    /// Numbers of what it depends on.
+    pub fn arguments(&self) -> usize {
+        self.offsets(1).end
+    }
+}
+
+/// The residual's places as equations.
+struct Natural<const N: usize> {
+    sides: [Vec<[i64; 3]>; 2],
+    multipliers: Vec<[i64; N]>,
+}
+
+impl<const N: usize> Natural<N> {
+    fn of(layout: &Layout) -> Result<Self> {
+        let side = |side: usize| {
+            let first = layout.now(side).start;
+            (0..layout.nodes[side]).map(move |k| std::array::from_fn(|i| (first + 3 * k + i) as i64)).stored()
+        };
+        let first = layout.rows().start;
+        let multipliers = (0..layout.nodes[0]).map(|a| std::array::from_fn(|i| (first + N * a + i) as i64)).stored()?;
+        Ok(Natural { sides: [side(0)?, side(1)?], multipliers })
+    }
+
+    fn numbers(&self) -> Numbers<'_, N> {
+        Numbers { sides: [&self.sides[0], &self.sides[1]], multipliers: &self.multipliers }
+    }
+}
+
+impl<const N: usize> Contact<N> {
+    /// Where everything stands.
+    pub fn layout(&self) -> Layout {
+        Layout { nodes: [self.setup.nonmortar.len(), self.setup.mortar.len()], components: N }
+    }
+
+    /// d residual / d (positions of t_n) at (x, lambda), in the host's equations.
+    ///
+    /// # Errors
+    /// Those of a residual; [`Kind::Unsupported`].
+    pub fn previous_tangent(&mut self, x: [&[Vec3]; 2], lambda: &[SVector<f64, N>], sink: &mut dyn Sink) -> Result<()> {
+        let wanted = Wanted { previous: true, parameters: false };
+        self.differentiate(x, lambda, wanted, &mut |numbers, acts, place, column, values| {
+            if let (true, Column::Previous(node)) = (acts, column) {
+                sink.add_block(numbers.place(place), numbers.place(Place::Displacement(node)), values);
+            }
+        })
+    }
+
+    /// a^T d residual / d (what it depends on): `a` and the answer as [`Layout`] says. `now`: with the positions of now.
+    ///
+    /// # Errors
+    /// As [`Contact::previous_tangent`]; also where a mortar side that does not move is asked for its positions of now.
+    pub fn adjoint(
+        &mut self,
+        x: [&[Vec3]; 2],
+        lambda: &[SVector<f64, N>],
+        a: &[f64],
+        (wanted, now): (Wanted, [bool; 2]),
+    ) -> Result<Vec<f64>> {
+        let layout = self.layout();
+        let (natural, mut products) = (Natural::<N>::of(&layout)?, memory::filled(0.0, layout.arguments())?);
+        self.differentiate(x, lambda, wanted, &mut |_, _, place, column, values| {
+            let rows = natural.numbers().place(place);
+            for (to, values) in products[layout.place(column)..].iter_mut().zip(values.chunks_exact(rows.len())) {
+                *to += rows.iter().zip(values).map(|(&row, v)| a[row as usize] * v).sum::<f64>();
+            }
+        })?;
+        self.by_positions_of_now(x, lambda, (&natural, now), &mut |row: i64, column: i64, value: f64| {
+            if let Some(to) = products[..layout.rows().start].get_mut(column as usize) {
+                *to += a[row as usize] * value;
+            }
+        })?;
+        Ok(products)
+    }
+
+    /// d residual / d (what it depends on) along a direction: both as [`Layout`] says.
+    ///
+    /// # Errors
+    /// As [`Contact::adjoint`].
+    pub fn sensitivity(
+        &mut self,
+        x: [&[Vec3]; 2],
+        lambda: &[SVector<f64, N>],
+        along: &[f64],
+        (wanted, now): (Wanted, [bool; 2]),
+    ) -> Result<Vec<f64>> {
+        let layout = self.layout();
+        let (natural, mut change) = (Natural::<N>::of(&layout)?, memory::filled(0.0, layout.residual())?);
+        self.differentiate(x, lambda, wanted, &mut |_, _, place, column, values| {
+            let rows = natural.numbers().place(place);
+            for (by, values) in along[layout.place(column)..].iter().zip(values.chunks_exact(rows.len())) {
+                rows.iter().zip(values).for_each(|(&row, v)| change[row as usize] += by * v);
+            }
+        })?;
+        self.by_positions_of_now(x, lambda, (&natural, now), &mut |row: i64, column: i64, value: f64| {
+            if let Some(by) = along[..layout.rows().start].get(column as usize) {
+                change[row as usize] += by * value;
+            }
+        })?;
+        Ok(change)
+    }
+
+    /// The tangent's columns of positions, where they are asked for.
+    fn by_positions_of_now(
+        &mut self,
+        x: [&[Vec3]; 2],
+        lambda: &[SVector<f64, N>],
+        (natural, now): (&Natural<N>, [bool; 2]),
+        sink: &mut dyn Sink,
+    ) -> Result<()> {
+        if now[1] && !self.setup.effects.moves() {
+            let text = "positions of now of a mortar side without equations: its forces are not differentiated; give its nodes equations";
+            return Err(Error::new(Kind::Unsupported, text));
+        }
+        if now == [false; 2] {
+            return Ok(());
+        }
+        self.linearise_by_equations((x[0], x[1]), lambda, Extent::Whole, (None, Some(natural.numbers())), (sink, None))
+    }
+
+    /// Gives the derivatives, with the host's equations and whether a row is one of this handle.
+    fn differentiate(
+        &mut self,
+        x: [&[Vec3]; 2],
+        lambda: &[SVector<f64, N>],
+        wanted: Wanted,
+        take: &mut dyn FnMut(Numbers<N>, bool, Place, Column, &[f64]),
+    ) -> Result<()> {
+        self.setup.refuse(&[(Feature::Derivatives, true)])?;
+        if let Some(edge) = self.step.pairing.corners.edges.first() {
+            let text = text!(
+                "derivatives where copies of a node touch as one (non-mortar nodes {:?}): their normal is that of the mortar face at t_n, which is not differentiated; move the edge off the face",
+                edge.sides
+            );
+            return Err(Error::new(Kind::Unsupported, text));
+        }
+        let at = (x[0], x[1]);
+        self.cache.respond(&self.setup, &mut self.step, at, lambda, None)?;
+        self.cache.complete(&self.setup, &mut self.step)?;
+        let (surfaces, history) = (self.setup.surfaces(), &self.step.history);
+        let follows = self.setup.options.effective_weights() == Weights::Current;
+        let mut active = Active::default();
+        if let (true, true, Some(filter)) = (wanted.previous, follows, &self.step.pairing.filter) {
+            let before = (&history.x1[..], &history.x2[..]);
+            acting(surfaces, &self.setup.options, filter, &mut self.cache.work, before, &mut active)?;
+        }
+        let given = Given { setup: &self.setup, step: &self.step };
+        let pairs = self.cache.weighted(surfaces, history);
+        let rows = rows(surfaces, pairs, Some(history.weighted(surfaces)))?;
+        let (normals, answers) = (given.normals()?, self.cache.answers());
+        let place =
+            At { given, x, lambda, sums: &answers.sums, responses: &answers.responses, normals: &normals, rows: &rows };
+        let (mut corner_sums, mut room) = (Vec::new(), Vec::new());
+        let keeps = |a: usize| self.step.now.is_none() || self.step.pairing.keeps_normal[a];
+        let turns = if wanted.previous && follows && self.setup.nodes.normals.is_none() {
+            surfaces.0.add_normals(&history.x1, &mut corner_sums)?;
+            let turning = Turning { x1: &history.x1, corner_sums: &corner_sums, turns: &keeps };
+            let of = (lambda, (pairs, &answers.sums[..], &answers.responses));
+            let turns = Turns::of(given, turning, of, &normals, &|a| given.row_scale(a), &mut room)?;
+            (0..given.nodes()).any(keeps).then_some(turns)
+        } else {
+            None
+        };
+        let numbers = Numbers::of(&self.setup);
+        let acts = |place: Place| match place {
+            Place::Multiplier(a) => given.setup.nodes.acts(a),
+            Place::Displacement(_) => true,
+        };
+        let mut give = |place: Place, column: Column, values: &[f64]| take(numbers, acts(place), place, column, values);
+        let take: &mut Take = &mut give;
+        derivatives(&place, wanted, (follows.then_some(&active), turns.as_ref()), take)
+    }
+}
