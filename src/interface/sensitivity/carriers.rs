@@ -22,7 +22,7 @@ struct Slope {
     by: Vec3,
 }
 
-/// The derivatives of a facet's area by its nodes.
+/// The derivatives of twice a facet's area by its nodes.
 fn of_area(surface: &Surface, f: usize, x: &[Vec3]) -> [Vec3; MAX_CORNERS] {
     let (facet, nodes) = (surface.facet(f, x), &surface.facets[f]);
     let (area, mut by) = (facet.area_vector().norm(), [Vec3::zeros(); MAX_CORNERS]);
@@ -34,7 +34,7 @@ fn of_area(surface: &Surface, f: usize, x: &[Vec3]) -> [Vec3; MAX_CORNERS] {
     let (x, normal) = (facet.points(), facet.area_vector() / area);
     let n = x.len();
     for (k, by) in by.iter_mut().enumerate().take(n) {
-        *by = (x[(k + 1) % n] - x[(k + n - 1) % n]).cross(&normal) / 2.0;
+        *by = (x[(k + 1) % n] - x[(k + n - 1) % n]).cross(&normal);
     }
     by
 }
