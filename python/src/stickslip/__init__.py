@@ -3,7 +3,7 @@
 The package calls the shared library through its C interface. Arrays are numpy's. What a word means: docs/glossary.md.
 """
 
-from . import errors
+from . import errors, gradients
 from ._heat import Heat
 from ._laws import LawPoint
 from ._library import HEADER as header
@@ -22,4 +22,4 @@ __version__ = text(lib.stickslip_version())
 __build__ = text(lib.stickslip_build())
 
 __all__ = ["Condensed", "CondensedPlan", "Error", "Heat", "Interface", "LawPoint", "Plan", "RigidBody", "RigidPlan", "StepRefused", "StepWarning",
-            "Surface", "constants", "crosspoints", "errors", "header", "split_creases"]
+            "Surface", "constants", "crosspoints", "errors", "gradients", "header", "split_creases"]
