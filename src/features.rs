@@ -33,6 +33,8 @@ pub const POINTS: Feature = Feature { name: "points", built: cfg!(feature = "poi
 pub const QUADRATIC: Feature = Feature { name: "quadratic", built: cfg!(feature = "quadratic") };
 /// Rigid bodies.
 pub const RIGID: Feature = Feature { name: "rigid", built: cfg!(feature = "rigid") };
+/// Derivatives by positions of t_n and by parameters.
+pub const SENSITIVITY: Feature = Feature { name: "sensitivity", built: cfg!(feature = "sensitivity") };
 /// Facets of the host that have parts: quadratic ones and lines.
 pub const PARTS: Feature = Feature { name: "quadratic or lines", built: QUADRATIC.built || LINES.built };
 

@@ -15,25 +15,10 @@ impl From<TryReserveError> for Error {
     }
 }
 
-/// Room for `more` values, twice as much as before where that is more. It is compiled once a type and not at each of two hundred
-/// places, as the next is.
-#[cold]
-#[inline(never)]
-fn take<T>(v: &mut Vec<T>, more: usize) -> Result<()> {
-    Ok(v.try_reserve(more)?)
-}
-
-/// Room for `more` values and no others.
-#[cold]
-#[inline(never)]
-fn take_exactly<T>(v: &mut Vec<T>, more: usize) -> Result<()> {
-    Ok(v.try_reserve_exact(more)?)
-}
-
 /// An empty vector with room for `n` values.
 pub fn with_room<T>(n: usize) -> Result<Vec<T>> {
     let mut v = Vec::new();
-    take_exactly(&mut v, n)?;
+    v.try_reserve_exact(n)?;
     Ok(v)
 }
 
@@ -47,9 +32,7 @@ pub fn filled<T: Copy>(value: T, n: usize) -> Result<Vec<T>> {
 /// `n` times the same value, in place of what was there.
 pub fn refill<T: Copy>(v: &mut Vec<T>, value: T, n: usize) -> Result<()> {
     v.clear();
-    if v.capacity() < n {
-        take(v, n)?;
-    }
+    v.try_reserve(n)?;
     v.resize(n, value);
     Ok(())
 }
@@ -57,9 +40,7 @@ pub fn refill<T: Copy>(v: &mut Vec<T>, value: T, n: usize) -> Result<()> {
 /// A copy of some values, in place of what was there.
 pub fn recopy<T: Copy>(v: &mut Vec<T>, values: &[T]) -> Result<()> {
     v.clear();
-    if v.capacity() < values.len() {
-        take_exactly(v, values.len())?;
-    }
+    v.try_reserve_exact(values.len())?;
     v.extend_from_slice(values);
     Ok(())
 }
@@ -81,7 +62,7 @@ pub fn grow<T>(v: &mut Vec<T>, more: usize) -> Result<()> {
 pub fn grow_to<T>(v: &mut Vec<T>, more: usize, length: usize) -> Result<()> {
     if v.capacity() - v.len() < more {
         let to_length = length.saturating_sub(v.len()).min(v.len());
-        take_exactly(v, more.max(v.len() / SPARE).max(to_length))?;
+        v.try_reserve_exact(more.max(v.len() / SPARE).max(to_length))?;
     }
     Ok(())
 }
@@ -100,7 +81,7 @@ pub fn copied<T: Copy>(values: &[T]) -> Result<Vec<T>> {
 
 /// Appends some values.
 pub fn extend<T: Copy>(v: &mut Vec<T>, values: &[T]) -> Result<()> {
-    take(v, values.len())?;
+    v.try_reserve(values.len())?;
     v.extend_from_slice(values);
     Ok(())
 }
@@ -179,7 +160,7 @@ impl<T> Store<T> for Vec<T> {
     #[inline]
     fn store(&mut self, value: T) -> Result<()> {
         if self.len() == self.capacity() {
-            take(self, 1)?;
+            self.try_reserve(1)?;
         }
         self.push(value);
         Ok(())
@@ -189,9 +170,7 @@ impl<T> Store<T> for Vec<T> {
     fn store_all(&mut self, values: impl Iterator<Item = T>) -> Result<()> {
         let (least, most) = values.size_hint();
         // Twice as much as before where it goes on growing.
-        if self.capacity() - self.len() < least {
-            if self.is_empty() { take_exactly(self, least) } else { take(self, least) }?;
-        }
+        if self.is_empty() { self.try_reserve_exact(least) } else { self.try_reserve(least) }?;
         if most == Some(least) {
             self.extend(values); // as many as there is room for
             return Ok(());

@@ -7,6 +7,7 @@ use super::raw;
 use super::sized::{self, Sized64};
 use super::tangent::Triplets;
 use crate::error::Result;
+use crate::features;
 use crate::interface::{Layout, Wanted};
 use crate::memory;
 use std::ops::Range;
@@ -172,6 +173,7 @@ pub unsafe extern "C" fn stickslip_interface_previous_tangent_coo(
     count: *mut i64,
 ) -> i32 {
     guard(|| {
+        features::needs!(SENSITIVITY);
         let h = handle(interface)?;
         let point = Point::read(&h.inner, x1, x2, lambda, std::ptr::null())?;
         raw::check(count, "count")?;
@@ -204,6 +206,7 @@ pub unsafe extern "C" fn stickslip_interface_adjoint(
     gradient: *const stickslip_gradient,
 ) -> i32 {
     guard(|| {
+        features::needs!(SENSITIVITY);
         let h = &mut handle(interface)?.inner;
         let point = Point::read(h, x1, x2, lambda, std::ptr::null())?;
         let g = sized::read(gradient)?;
@@ -241,6 +244,7 @@ pub unsafe extern "C" fn stickslip_interface_sensitivity(
     rows: *mut f64,
 ) -> i32 {
     guard(|| {
+        features::needs!(SENSITIVITY);
         let h = &mut handle(interface)?.inner;
         let point = Point::read(h, x1, x2, lambda, std::ptr::null())?;
         let d = sized::read(direction)?;

@@ -21,7 +21,7 @@ use super::stages::residual::residual;
 use super::stages::respond::{Responses, respond};
 use super::stages::sums::{NodeSums, sums};
 use super::tangent::blocks::{Room, blocks};
-use super::tangent::by_equations::ByEquations;
+use super::tangent::by_equations::{ByEquations, Numbers};
 use super::tangent::task::Task;
 use super::tangent::union::{Pairs, Walk};
 use crate::geometry::Vec3;
@@ -90,7 +90,7 @@ fn an_evaluation_stage_by_stage() {
     let mut entries = 0;
     let mut count = |_: i64, _: i64, _: f64| entries += 1;
     let task = Task { given, normals: &[Vec3::zeros(); 4], pairs, extent: Extent::Whole, moves: false, numbers: None };
-    blocks(task, &mut Room::default(), (&mut ByEquations::new(&setup, &mut count), None)).unwrap();
+    blocks(task, &mut Room::default(), (&mut ByEquations::new(&setup, Numbers::of(&setup), &mut count), None)).unwrap();
     // 12 x 12 of the forces, 3 x 16 of the multipliers in them, 12 x 12 of the rows, 4 x 9 of the nodes.
     assert_eq!(entries, 372);
     let numbering = Numbering::of(Nodes::of(Sides::of(&setup))).unwrap();

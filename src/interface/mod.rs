@@ -30,6 +30,7 @@ mod stages;
 mod tangent;
 mod thermal;
 mod turning;
+mod weights;
 
 pub use condensation::Piece;
 pub use condensed::elimination::own_rows;

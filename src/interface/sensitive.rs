@@ -6,13 +6,21 @@ use super::contact::Contact;
 use super::data::active::Active;
 use super::data::extent::Extent;
 use super::data::options::Weights;
-use super::heat::rows::rows;
+use super::data::setup::Setup;
 use super::pairing::given::Given;
-use super::sensitivity::{At, Column, Take, Wanted, derivatives};
+use super::sensitivity::carriers::through_shares;
+use super::sensitivity::normals::through_normals;
+use super::sensitivity::parameters::{Slipping, by_threshold, through_offsets, through_threshold};
+use super::sensitivity::weights::{through_gaps, through_weights};
+use super::sensitivity::{Answer, At, Column, Take, Wanted, weights_of};
 use super::stages::acting::acting;
+use super::stages::carried::carriers_sums;
+use super::stages::sums::in_previous_gaps;
 use super::tangent::by_equations::{Numbers, Sink};
 use super::tangent::emission::Place;
+use super::tangent::read::square;
 use super::tangent::turning::{Turning, Turns};
+use super::weights::facet::{FacetWeights, each_facet};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::memory::{self, Stored};
@@ -85,6 +93,9 @@ impl Layout {
     }
 }
 
+/// Takes derivatives, with what the interface is.
+type TakeWith<'a, const N: usize> = dyn FnMut(&Setup<N>, Place, Column, &[f64]) + 'a;
+
 /// The residual's places as equations.
 struct Natural<const N: usize> {
     sides: [Vec<[i64; 3]>; 2],
@@ -119,9 +130,11 @@ impl<const N: usize> Contact<N> {
     /// Those of a residual; [`Kind::Unsupported`].
     pub fn previous_tangent(&mut self, x: [&[Vec3]; 2], lambda: &[SVector<f64, N>], sink: &mut dyn Sink) -> Result<()> {
         let wanted = Wanted { previous: true, parameters: false };
-        self.differentiate(x, lambda, wanted, &mut |numbers, acts, place, column, values| {
+        self.differentiate(x, lambda, wanted, &mut |setup, row, column, values| {
+            let numbers = Numbers::of(setup);
+            let acts = !matches!(row, Place::Multiplier(a) if !setup.nodes.acts(a));
             if let (true, Column::Previous(node)) = (acts, column) {
-                sink.add_block(numbers.place(place), numbers.place(Place::Displacement(node)), values);
+                sink.add_block(numbers.place(row), numbers.place(Place::Displacement(node)), values);
             }
         })
     }
@@ -139,7 +152,7 @@ impl<const N: usize> Contact<N> {
     ) -> Result<Vec<f64>> {
         let layout = self.layout();
         let (natural, mut products) = (Natural::<N>::of(&layout)?, memory::filled(0.0, layout.arguments())?);
-        self.differentiate(x, lambda, wanted, &mut |_, _, place, column, values| {
+        self.differentiate(x, lambda, wanted, &mut |_, place, column, values| {
             let rows = natural.numbers().place(place);
             for (to, values) in products[layout.place(column)..].iter_mut().zip(values.chunks_exact(rows.len())) {
                 *to += rows.iter().zip(values).map(|(&row, v)| a[row as usize] * v).sum::<f64>();
@@ -166,7 +179,7 @@ impl<const N: usize> Contact<N> {
     ) -> Result<Vec<f64>> {
         let layout = self.layout();
         let (natural, mut change) = (Natural::<N>::of(&layout)?, memory::filled(0.0, layout.residual())?);
-        self.differentiate(x, lambda, wanted, &mut |_, _, place, column, values| {
+        self.differentiate(x, lambda, wanted, &mut |_, place, column, values| {
             let rows = natural.numbers().place(place);
             for (by, values) in along[layout.place(column)..].iter().zip(values.chunks_exact(rows.len())) {
                 rows.iter().zip(values).for_each(|(&row, v)| change[row as usize] += by * v);
@@ -204,7 +217,7 @@ impl<const N: usize> Contact<N> {
         x: [&[Vec3]; 2],
         lambda: &[SVector<f64, N>],
         wanted: Wanted,
-        take: &mut dyn FnMut(Numbers<N>, bool, Place, Column, &[f64]),
+        take: &mut TakeWith<N>,
     ) -> Result<()> {
         self.setup.refuse(&[(Feature::Derivatives, true)])?;
         if let Some(edge) = self.step.pairing.corners.edges.first() {
@@ -224,30 +237,66 @@ impl<const N: usize> Contact<N> {
             let before = (&history.x1[..], &history.x2[..]);
             acting(surfaces, &self.setup.options, filter, &mut self.cache.work, before, &mut active)?;
         }
-        let given = Given { setup: &self.setup, step: &self.step };
+        let (setup, step) = (&self.setup, &self.step);
+        let given = Given { setup, step };
         let pairs = self.cache.weighted(surfaces, history);
-        let rows = rows(surfaces, pairs, Some(history.weighted(surfaces)))?;
-        let (normals, answers) = (given.normals()?, self.cache.answers());
-        let place =
-            At { given, x, lambda, sums: &answers.sums, responses: &answers.responses, normals: &normals, rows: &rows };
-        let (mut corner_sums, mut room) = (Vec::new(), Vec::new());
-        let keeps = |a: usize| self.step.now.is_none() || self.step.pairing.keeps_normal[a];
-        let turns = if wanted.previous && follows && self.setup.nodes.normals.is_none() {
-            surfaces.0.add_normals(&history.x1, &mut corner_sums)?;
-            let turning = Turning { x1: &history.x1, corner_sums: &corner_sums, turns: &keeps };
-            let of = (lambda, (pairs, &answers.sums[..], &answers.responses));
-            let turns = Turns::of(given, turning, of, &normals, &|a| given.row_scale(a), &mut room)?;
-            (0..given.nodes()).any(keeps).then_some(turns)
-        } else {
-            None
+        let weights = weights_of(surfaces, [pairs, history.weighted(surfaces)])?;
+        let (normals, known) = (given.normals()?, self.cache.answers());
+        let (sums, responses) = (&known.sums[..], &known.responses);
+        let answer = |a: usize| {
+            let (of, scale) = (&responses.nodes[a], if setup.nodes.is_own(a) { given.row_scale(a) } else { 0.0 });
+            let by_gap = [of.drow_dnow, of.drow_dprevious].map(|by| square(&by) * scale);
+            let lambda = Vec3::from_fn(|i, _| lambda[a].get(i).copied().unwrap_or(0.0));
+            Answer { by_gap, lambda, scale, augmentation: given.augmentation(a) }
         };
-        let numbers = Numbers::of(&self.setup);
-        let acts = |place: Place| match place {
-            Place::Multiplier(a) => given.setup.nodes.acts(a),
-            Place::Displacement(_) => true,
+        let answers = (0..given.nodes()).map(answer).stored()?;
+        let slip = setup.effects.law.slips.then(|| setup.options.effective_slip().coefficients().1);
+        let at = At {
+            surfaces,
+            step,
+            nodes: &setup.nodes,
+            components: N,
+            slip,
+            x,
+            sums,
+            answers: &answers,
+            carried: &responses.carried,
+            normals: &normals,
+            weights: &weights,
         };
-        let mut give = |place: Place, column: Column, values: &[f64]| take(numbers, acts(place), place, column, values);
+        let mut give = |row: Place, column: Column, values: &[f64]| take(setup, row, column, values);
         let take: &mut Take = &mut give;
-        derivatives(&place, wanted, (follows.then_some(&active), turns.as_ref()), take)
+        if wanted.previous {
+            through_gaps(&at, take);
+            through_shares(&at, take)?;
+            if follows && slip.is_some() {
+                let through = &mut |facet: &FacetWeights| through_weights(&at, (&active, facet), take);
+                each_facet((given, &normals), (&active, responses), through)?;
+            }
+            let keeps = |a: usize| step.now.is_none() || step.pairing.keeps_normal[a];
+            if follows && setup.nodes.normals.is_none() && (0..given.nodes()).any(keeps) {
+                let (mut corner_sums, mut room) = (Vec::new(), Vec::new());
+                surfaces.0.add_normals(&history.x1, &mut corner_sums)?;
+                let turning = Turning { x1: &history.x1, corner_sums: &corner_sums, turns: &keeps };
+                let (of, scale) = ((pairs, sums, responses), &|a| given.row_scale(a));
+                let turns = Turns::of(given, turning, lambda, of, &normals, scale, &mut room)?;
+                through_normals(&at, given, &turns, take);
+            }
+        }
+        if wanted.parameters {
+            let shared = carriers_sums(given, sums, &responses.carried, &normals)?;
+            for (a, response) in responses.nodes.iter().enumerate().filter(|_| N == 3) {
+                let sums = shared.binary_search_by_key(&a, |(b, _)| *b).map_or(&sums[a], |k| &shared[k].1);
+                let slipping = Slipping { lambda: &lambda[a], sums, response };
+                let is_carried = responses.carried.get(a).is_some_and(|is| *is);
+                if let Some(by) = if is_carried { None } else { by_threshold(given, a, slipping)? } {
+                    through_threshold(&at, a, by, take);
+                }
+            }
+            // The offsets of now are in both gaps where slip is a difference of the two, and where weights are frozen.
+            let both = slip.is_some() && (in_previous_gaps(given) || !setup.options.differentiates_weights());
+            through_offsets(&at, both, take);
+        }
+        Ok(())
     }
 }

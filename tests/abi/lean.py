@@ -73,6 +73,9 @@ def refusals(stickslip, scene, np):
         "points": [lambda _: scene.Solid(basis="dual", weights="reference", decision="points")],
         "quadratic": [lambda _: scene.Scene(quadratic, below, multiplier_space="sub")],
         "rigid": [rigid],
+        "sensitivity": [lambda solid: solid.interface.previous_tangent(*solid.pressed(), solid.size),
+                        lambda solid: solid.interface.adjoint(*solid.pressed(), *solid.pressed()),
+                        lambda solid: solid.interface.sensitivity(*solid.pressed(), friction=np.ones(len(solid.x1)))],
     }
     said = {}
     for name, call in ((name, call) for name, of_feature in calls.items() for call in of_feature):

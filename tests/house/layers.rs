@@ -89,10 +89,22 @@ fn only_the_abi_and_the_processors_instructions_are_unsafe() {
 const STAGES: [&str; 5] = ["integrate", "facet", "sums", "respond", "residual"];
 
 /// The rooms of `src/interface`, lowest first.
-const ROOMS: [&str; 9] = ["compose", "data", "pairing", "stages", "tangent", "heat", "plan", "condensed", "inspect"];
+const ROOMS: [&str; 11] = [
+    "compose",
+    "data",
+    "pairing",
+    "stages",
+    "tangent",
+    "weights",
+    "heat",
+    "sensitivity",
+    "plan",
+    "condensed",
+    "inspect",
+];
 
 /// Files that know the handle: itself, and those that give it to hosts.
-const KNOW_THE_HANDLE: [&str; 10] = [
+const KNOW_THE_HANDLE: [&str; 11] = [
     "interface/condensation.rs",
     "interface/contact.rs",
     "interface/evaluation.rs",
@@ -100,6 +112,7 @@ const KNOW_THE_HANDLE: [&str; 10] = [
     "interface/mod.rs",
     "interface/offsets.rs",
     "interface/own.rs",
+    "interface/sensitive.rs",
     "interface/thermal.rs",
     "interface/turning.rs",
     "capi/",

@@ -1,7 +1,6 @@
 //! Heat across an interface (docs/formulation.md 17): the weights at work for temperatures. Beside the stages of forces, whose
 //! answers it takes; none of them knows it.
 
-pub mod motion;
 pub mod rows;
 pub mod sides;
 pub mod tangent;

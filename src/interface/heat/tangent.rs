@@ -1,6 +1,5 @@
 //! The tangent of the heat that leaves the nodes: by temperatures, by displacements, by multipliers (docs/formulation.md 17.2).
 
-use super::motion::each_facet;
 use super::rows::{Column, Row};
 use super::sides::Place;
 use crate::error::Result;
@@ -14,6 +13,7 @@ use crate::interface::stages::sums::in_previous_gaps;
 use crate::interface::tangent::augmented::dtraction;
 use crate::interface::tangent::by_equations::Sink;
 use crate::interface::tangent::turning::Turns;
+use crate::interface::weights::facet::each_facet;
 use crate::law::{HeatFlow, HeatNode};
 use crate::memory::{self, Store, Stored};
 use nalgebra::SMatrix;

@@ -5,14 +5,11 @@
 
 use super::{At, Column, Take};
 use crate::error::Result;
-use crate::geometry::Vec3;
+use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::weak::{self, Carrier};
-use crate::interface::stages::carried::{multiplier_share, transfer};
-use crate::interface::tangent::emission::Place;
 use crate::memory::{self, Store};
 use crate::shape::MAX_CORNERS;
-use nalgebra::SMatrix;
 
 /// Dw_AB by the position of one node.
 #[derive(Clone, Copy, Debug)]
@@ -40,18 +37,18 @@ fn of_area(surface: &Surface, f: usize, x: &[Vec3]) -> [Vec3; MAX_CORNERS] {
 }
 
 /// How many neighbours away from a node with a multiplier of its own each carried node is; 0: it has one, `None`: nothing is opposite.
-fn levels<const N: usize>(at: &At<N>, links: &[Vec<Carrier>]) -> Result<Vec<Option<usize>>> {
-    let (given, pairing) = (at.given, &at.given.step.pairing);
+fn levels(at: &At, links: &[Vec<Carrier>]) -> Result<Vec<Option<usize>>> {
+    let (one, step) = (at.surfaces.0, at.step);
     let mut levels = memory::filled(None, links.len())?;
     for (a, level) in levels.iter_mut().enumerate() {
-        let takes_part = pairing.coverable[a] && given.setup.nonmortar.has_row(a);
-        let is_strong = takes_part && given.carriers_of(a).is_empty() && given.history().coverage[a] > 0.0;
+        let takes_part = step.pairing.coverable[a] && one.has_row(a);
+        let is_strong = takes_part && at.carriers_of(a).is_empty() && step.history.coverage[a] > 0.0;
         *level = is_strong.then_some(0);
     }
     for round in 1.. {
         let next = |a: &usize| {
             let is_near = |&(b, _): &Carrier| levels[b].is_some_and(|level| level < round);
-            levels[*a].is_none() && !given.carriers_of(*a).is_empty() && links[*a].iter().any(is_near)
+            levels[*a].is_none() && !at.carriers_of(*a).is_empty() && links[*a].iter().any(is_near)
         };
         let mut found = Vec::new();
         found.store_all((0..links.len()).filter(next))?;
@@ -65,33 +62,32 @@ fn levels<const N: usize>(at: &At<N>, links: &[Vec<Carrier>]) -> Result<Vec<Opti
 
 /// Gives what rows have of them: the carriers' through the gaps of those that they carry, these nodes' own through the carriers'
 /// multipliers.
-pub fn through_shares<const N: usize>(at: &At<N>, take: &mut Take) -> Result<()> {
-    if !at.responses.carried.contains(&true) {
+pub fn through_shares(at: &At, take: &mut Take) -> Result<()> {
+    if !at.carried.contains(&true) {
         return Ok(());
     }
     let slopes = slopes(at)?;
-    let (_, committed) = at.given.setup.options.effective_slip().coefficients();
     for (a, slopes) in slopes.iter().enumerate().filter(|(a, _)| at.is_carried(*a)) {
-        let (r, sums) = (at.given.augmentation(a), &at.sums[a]);
-        for Slope { carrier: b, node, by } in slopes {
-            let (answer, t) = (&at.responses.nodes[*b], transfer(at.given, a, at.normals[a], at.normals[*b]));
-            let previous = sums.gap_previous - sums.gap_committed * committed;
-            let row = (answer.drow_dnow * (t * sums.gap_now) + answer.drow_dprevious * (t * previous)) * at.scale(*b);
-            let own = multiplier_share(at.given, a) * at.lambda[*b] * (at.scale(a) / r);
-            for (place, row) in [(Place::Multiplier(*b), row), (Place::Multiplier(a), own)] {
-                let block: SMatrix<f64, N, 3> = row * by.transpose();
-                take(place, Column::Previous(*node), block.as_slice());
-            }
+        let (answer, sums) = (&at.answers[a], &at.sums[a]);
+        // d (row of A) / d lambda_B, times r_A over w_AB.
+        let share = if at.components == 1 { Mat3::identity() } else { at.nodes.free[a] };
+        for &Slope { carrier: b, node, by } in slopes {
+            let (t, [now, previous]) = (at.transfer(a, b), at.answers[b].by_gap);
+            let from = sums.gap_previous - sums.gap_committed * at.slip.unwrap_or(0.0);
+            let row = now * (t * sums.gap_now) + previous * (t * from);
+            let own = share * at.answers[b].lambda * (answer.scale / answer.augmentation);
+            at.put(b, Column::Previous(node), &(row * by.transpose()), take);
+            at.put(a, Column::Previous(node), &(own * by.transpose()), take);
         }
     }
     Ok(())
 }
 
 /// Dw of all carried nodes.
-fn slopes<const N: usize>(at: &At<N>) -> Result<Vec<Vec<Slope>>> {
-    let (given, one) = (at.given, &at.given.setup.nonmortar);
-    let (x, n) = (&given.history().x1, one.len());
-    let links = weak::links(one, given.history())?;
+fn slopes(at: &At) -> Result<Vec<Vec<Slope>>> {
+    let (one, history) = (at.surfaces.0, &at.step.history);
+    let (x, n) = (&history.x1, one.len());
+    let links = weak::links(one, history)?;
     let levels = levels(at, &links)?;
     let mut slopes = memory::defaults::<Vec<Slope>>(n)?;
     // v_JB of a neighbour that A has its shares from.
@@ -113,9 +109,9 @@ fn slopes<const N: usize>(at: &At<N>) -> Result<Vec<Vec<Slope>>> {
             for (i, &a) in nodes.iter().enumerate().filter(|(_, a)| is_here(**a)) {
                 let total: f64 = links[a].iter().filter(|link| counts(link.0)).map(|link| link.1).sum();
                 for (l, &j) in nodes.iter().enumerate().filter(|(l, j)| *l != i && counts(**j)) {
-                    let Some(factor) = weak::share(one, given.history(), (f, i, l)) else { continue };
-                    let shares = if levels[j] == Some(0) { &own(j)[..] } else { given.carriers_of(j) };
-                    for &(b, w) in given.carriers_of(a) {
+                    let Some(factor) = weak::share(one, history, (f, i, l)) else { continue };
+                    let shares = if levels[j] == Some(0) { &own(j)[..] } else { at.carriers_of(j) };
+                    for &(b, w) in at.carriers_of(a) {
                         let v: f64 = shares.iter().filter(|share| share.0 == b).map(|share| share.1).sum();
                         for (k, by) in by.iter().enumerate().take(corners.len) {
                             let by = by * (factor * (v - w) / total);

@@ -37,7 +37,12 @@ pub fn find_carried<const N: usize>(given: Given<N>, sums: &[NodeSums], all: &mu
 
 /// T_AB.
 pub fn transfer<const N: usize>(given: Given<N>, a: usize, nu_a: Vec3, nu_b: Vec3) -> Mat3 {
-    if N == 1 { nu_b * nu_a.transpose() } else { given.setup.nodes.free[a] }
+    transfer_of(N, &given.setup.nodes.free[a], nu_a, nu_b)
+}
+
+/// The same by the components of a multiplier and the free directions of A.
+pub fn transfer_of(components: usize, free: &Mat3, nu_a: Vec3, nu_b: Vec3) -> Mat3 {
+    if components == 1 { nu_b * nu_a.transpose() } else { *free }
 }
 
 /// d (row of A) / d lambda_B, times r_A.

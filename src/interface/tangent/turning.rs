@@ -77,7 +77,7 @@ impl<'a, const N: usize> Turns<'a, N> {
     ) -> Result<Option<Turns<'a, N>>> {
         let Some(now) = &given.step.now else { return Ok(None) };
         let turning = Turning { x1, corner_sums: &now.sums, turns: &|a| !given.step.pairing.keeps_normal[a] };
-        Turns::of(given, turning, (lambda, of), normals, scale, nodes).map(Some)
+        Turns::of(given, turning, lambda, of, normals, scale, nodes).map(Some)
     }
 
     /// The same by normals of other positions, of the nodes that have them.
@@ -85,7 +85,8 @@ impl<'a, const N: usize> Turns<'a, N> {
     pub fn of(
         given: Given<N>,
         turning: Turning<'a, '_>,
-        (lambda, (pairs, sums, responses)): (&[SVector<f64, N>], (Weighted, &[NodeSums], &Responses<N>)),
+        lambda: &[SVector<f64, N>],
+        (pairs, sums, responses): (Weighted, &[NodeSums], &Responses<N>),
         normals: &[Vec3],
         scale: &dyn Fn(usize) -> f64,
         nodes: &'a mut Vec<NodeTurn<N>>,
