@@ -253,6 +253,8 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_law_answer_size = 48
   integer(c_int64_t), parameter :: stickslip_heat_size = 80
   integer(c_int64_t), parameter :: stickslip_heat_nodes_size = 48
+  integer(c_int64_t), parameter :: stickslip_gradient_size = 72
+  integer(c_int64_t), parameter :: stickslip_direction_size = 72
 
   ! A contact interface, made by stickslip_interface_create and ended by stickslip_interface_destroy. A copy means the
   ! same interface. One thread at a time.
@@ -592,6 +594,30 @@ module stickslip
     type(c_ptr) :: jump = c_null_ptr               ! the mean jump of temperature [K]
     type(c_ptr) :: friction = c_null_ptr           ! the heat of friction [F L/T]
     type(c_ptr) :: area = c_null_ptr               ! that the means are of [L^2]
+  end type
+
+  type, bind(C) :: stickslip_gradient
+    integer(c_int64_t) :: struct_size = stickslip_gradient_size
+    type(c_ptr) :: previous1 = c_null_ptr
+    type(c_ptr) :: previous2 = c_null_ptr
+    type(c_ptr) :: now1 = c_null_ptr
+    type(c_ptr) :: now2 = c_null_ptr
+    type(c_ptr) :: friction = c_null_ptr
+    type(c_ptr) :: shear_limit = c_null_ptr
+    type(c_ptr) :: offsets1 = c_null_ptr
+    type(c_ptr) :: offsets2 = c_null_ptr
+  end type
+
+  type, bind(C) :: stickslip_direction
+    integer(c_int64_t) :: struct_size = stickslip_direction_size
+    type(c_ptr) :: previous1 = c_null_ptr
+    type(c_ptr) :: previous2 = c_null_ptr
+    type(c_ptr) :: now1 = c_null_ptr
+    type(c_ptr) :: now2 = c_null_ptr
+    type(c_ptr) :: friction = c_null_ptr
+    type(c_ptr) :: shear_limit = c_null_ptr
+    type(c_ptr) :: offsets1 = c_null_ptr
+    type(c_ptr) :: offsets2 = c_null_ptr
   end type
 
   interface
@@ -1442,6 +1468,34 @@ module stickslip
       integer(c_int64_t), value :: capacity
       type(c_ptr), value :: rows, columns, values
       integer(c_int64_t), intent(inout) :: count
+    end function
+
+    ! How the residual depends on the positions of t_n, as triplets. With rows, columns and values c_null_ptr only count is written.
+    integer(c_int32_t) function stickslip_interface_previous_tangent_coo(interface, x1, x2, lambda, capacity, rows, columns, &
+        values, count) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(*), x2(*), lambda(*)
+      integer(c_int64_t), value :: capacity
+      type(c_ptr), value :: rows, columns, values
+      integer(c_int64_t), intent(inout) :: count
+    end function
+
+    ! Products from the left: a1(3, n1), a2(3, n2), a_rows(3, n1), or a_rows(n1) without friction; members of gradient: c_loc, or c_null_ptr.
+    integer(c_int32_t) function stickslip_interface_adjoint(interface, x1, x2, lambda, a1, a2, a_rows, gradient) bind(C)
+      import :: c_double, c_int32_t, stickslip_gradient, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(*), x2(*), lambda(*), a1(*), a2(*), a_rows(*)
+      type(stickslip_gradient), intent(in) :: gradient
+    end function
+
+    ! Products from the right: force1(3, n1), force2(3, n2), rows(3, n1), or rows(n1); members of direction: c_loc, or c_null_ptr.
+    integer(c_int32_t) function stickslip_interface_sensitivity(interface, x1, x2, lambda, direction, force1, force2, rows) bind(C)
+      import :: c_double, c_int32_t, stickslip_direction, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(*), x2(*), lambda(*)
+      type(stickslip_direction), intent(in) :: direction
+      real(c_double), intent(inout) :: force1(*), force2(*), rows(*)
     end function
 
     ! What passes through one node: sides(2) [F/(L T)]; slopes(STICKSLIP_HEAT_SLOPES, 2) and conductance: c_loc, or c_null_ptr.

@@ -74,7 +74,8 @@
  * interface_set_constraints, interface_set_offsets, interface_set_previous, interface_set_committed after interface_create; interface_adjust,
  * interface_shape_offsets for what goes into them; interface_set_law, interface_set_threshold for other laws of friction,
  * interface_law_states, interface_set_law_states for what these remember; interface_heat and interface_heat_tangent_coo for
- * heat across the interface; interface_history_size,
+ * heat across the interface; interface_previous_tangent_coo, interface_adjoint, interface_sensitivity for gradients of a run;
+ * interface_history_size,
  * interface_history_export, interface_history_import for restarts; interface_sums on several processes;
  * interface_counters, interface_effects, interface_report, interface_diagnose. Where normals follow the motion: interface_turn_multipliers
  * at the start of a step, interface_use_normals for a step in two phases. Before it: surface_split_creases or lines_split_creases where a non-mortar surface
@@ -1324,25 +1325,26 @@ typedef struct stickslip_heat_nodes {
 } stickslip_heat_nodes;
 
 /// What a residual depends on besides multipliers: where products with its derivatives go (`stickslip_interface_adjoint`), n1 and n2
-/// being the nodes of both sides. A NULL member is not wanted.
+/// being the nodes of both sides. A NULL member is not wanted. Units are those of the product a^T R, which the caller's functional has, over the
+/// member's own; in brackets where that product has none.
 typedef struct stickslip_gradient {
   /// sizeof(stickslip_gradient).
   uint64_t struct_size;
-  /// By the positions at t_n of the non-mortar nodes (3 n1; plane and axisymmetric models: 2 n1).
+  /// By the positions at t_n of the non-mortar nodes (3 n1; plane and axisymmetric models: 2 n1) [L^-1].
   double *previous1;
-  /// By those of the mortar nodes (3 n2).
+  /// By those of the mortar nodes (3 n2) [L^-1].
   double *previous2;
-  /// By the positions of now: the tangent's columns, also of nodes without equations (3 n1).
+  /// By the positions of now: the tangent's columns, also of nodes without equations (3 n1) [L^-1].
   double *now1;
-  /// Likewise (3 n2). Not of a mortar side of which no node has an equation.
+  /// Likewise (3 n2) [L^-1]. Not of a mortar side of which no node has an equation.
   double *now2;
-  /// By the coefficients of friction (n1).
+  /// By the coefficients of friction (n1) [-].
   double *friction;
-  /// By the largest shear traction (1).
+  /// By the largest shear traction (1) [L^2/F].
   double *shear_limit;
-  /// By the offsets of the non-mortar nodes (n1).
+  /// By the offsets of the non-mortar nodes (n1) [L^-1].
   double *offsets1;
-  /// By those of the mortar nodes (n2).
+  /// By those of the mortar nodes (n2) [L^-1].
   double *offsets2;
 } stickslip_gradient;
 
@@ -2866,7 +2868,7 @@ int32_t stickslip_node_heat(const struct stickslip_heat *heat,
 /// The derivative is that of the nodes' states and of what is covered, carried and searched at t_n as they are. r_A and the row scale, whose
 /// derivative is multiplied by a row that is 0, are held.
 ///
-/// Errors: as `stickslip_interface_residual` without sums; BUFFER_TOO_SMALL; UNSUPPORTED (docs/compose.md; where copies of a node touch as
+/// Errors: those of `stickslip_interface_residual` without sums; BUFFER_TOO_SMALL; UNSUPPORTED (docs/compose.md; where copies of a node touch as
 /// one).
 /// Cost: after a residual at the same point, an integration at t_n and the derivatives of all weights there, about twice a tangent. Counting
 /// costs the same. Allocates.
@@ -2887,7 +2889,8 @@ int32_t stickslip_interface_previous_tangent_coo(struct stickslip_interface *int
 /// x1, x2, lambda: as for `stickslip_interface_previous_tangent_coo`. A node that slips at the threshold follows mu, or the limit if that
 /// decides; one whose threshold is 0 in this step (newly covered, or a copy of one in contact) neither.
 ///
-/// Errors: as there, STRUCT_SIZE, UNSUPPORTED (now2 of a mortar side that does not move).
+/// Errors: NULL_POINTER, those of `stickslip_interface_previous_tangent_coo`, STRUCT_SIZE, UNSUPPORTED (now2 of a mortar side that does not
+/// move).
 /// Cost: as there where previous1 or previous2 are wanted, of a tangent where now1 or now2 are, O(pairs) else. Allocates.
 int32_t stickslip_interface_adjoint(struct stickslip_interface *interface,
                                     const double *x1,
@@ -2901,10 +2904,11 @@ int32_t stickslip_interface_adjoint(struct stickslip_interface *interface,
 /// Products from the right: d residual / d (what the residual depends on besides multipliers) along a direction. For tangents of a run,
 /// forwards: K_n dy_n = - this, with the motion of step n - 1 in previous1 and previous2.
 ///
-/// x1, x2, lambda: as for `stickslip_interface_previous_tangent_coo`. Outputs: force1 (3 n1), force2 (3 n2), rows (3 n1, or n1 without
-/// friction).
+/// x1, x2, lambda: as for `stickslip_interface_previous_tangent_coo`. direction: the members that are not NULL count. Outputs: force1 (3 n1),
+/// force2 (3 n2), rows (3 n1, or n1 without friction).
 ///
-/// Errors and cost: as `stickslip_interface_adjoint`.
+/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, UNSUPPORTED, as `stickslip_interface_adjoint`.
+/// Cost: as there. Allocates.
 int32_t stickslip_interface_sensitivity(struct stickslip_interface *interface,
                                         const double *x1,
                                         const double *x2,

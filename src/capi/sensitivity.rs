@@ -13,27 +13,28 @@ use crate::memory;
 use std::ops::Range;
 
 /// What a residual depends on besides multipliers: where products with its derivatives go (`stickslip_interface_adjoint`), n1 and n2
-/// being the nodes of both sides. A NULL member is not wanted.
+/// being the nodes of both sides. A NULL member is not wanted. Units are those of the product a^T R, which the caller's functional has, over the
+/// member's own; in brackets where that product has none.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct stickslip_gradient {
     /// sizeof(stickslip_gradient).
     pub struct_size: u64,
-    /// By the positions at t_n of the non-mortar nodes (3 n1; plane and axisymmetric models: 2 n1).
+    /// By the positions at t_n of the non-mortar nodes (3 n1; plane and axisymmetric models: 2 n1) [L^-1].
     pub previous1: *mut f64,
-    /// By those of the mortar nodes (3 n2).
+    /// By those of the mortar nodes (3 n2) [L^-1].
     pub previous2: *mut f64,
-    /// By the positions of now: the tangent's columns, also of nodes without equations (3 n1).
+    /// By the positions of now: the tangent's columns, also of nodes without equations (3 n1) [L^-1].
     pub now1: *mut f64,
-    /// Likewise (3 n2). Not of a mortar side of which no node has an equation.
+    /// Likewise (3 n2) [L^-1]. Not of a mortar side of which no node has an equation.
     pub now2: *mut f64,
-    /// By the coefficients of friction (n1).
+    /// By the coefficients of friction (n1) [-].
     pub friction: *mut f64,
-    /// By the largest shear traction (1).
+    /// By the largest shear traction (1) [L^2/F].
     pub shear_limit: *mut f64,
-    /// By the offsets of the non-mortar nodes (n1).
+    /// By the offsets of the non-mortar nodes (n1) [L^-1].
     pub offsets1: *mut f64,
-    /// By those of the mortar nodes (n2).
+    /// By those of the mortar nodes (n2) [L^-1].
     pub offsets2: *mut f64,
 }
 
@@ -156,7 +157,7 @@ fn scatter<const K: usize>(parts: &[Part<*mut f64>; K], all: &[f64], name: &str)
 /// The derivative is that of the nodes' states and of what is covered, carried and searched at t_n as they are. r_A and the row scale, whose
 /// derivative is multiplied by a row that is 0, are held.
 ///
-/// Errors: as `stickslip_interface_residual` without sums; BUFFER_TOO_SMALL; UNSUPPORTED (docs/compose.md; where copies of a node touch as
+/// Errors: those of `stickslip_interface_residual` without sums; BUFFER_TOO_SMALL; UNSUPPORTED (docs/compose.md; where copies of a node touch as
 /// one).
 /// Cost: after a residual at the same point, an integration at t_n and the derivatives of all weights there, about twice a tangent. Counting
 /// costs the same. Allocates.
@@ -192,7 +193,8 @@ pub unsafe extern "C" fn stickslip_interface_previous_tangent_coo(
 /// x1, x2, lambda: as for `stickslip_interface_previous_tangent_coo`. A node that slips at the threshold follows mu, or the limit if that
 /// decides; one whose threshold is 0 in this step (newly covered, or a copy of one in contact) neither.
 ///
-/// Errors: as there, STRUCT_SIZE, UNSUPPORTED (now2 of a mortar side that does not move).
+/// Errors: NULL_POINTER, those of `stickslip_interface_previous_tangent_coo`, STRUCT_SIZE, UNSUPPORTED (now2 of a mortar side that does not
+/// move).
 /// Cost: as there where previous1 or previous2 are wanted, of a tangent where now1 or now2 are, O(pairs) else. Allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_adjoint(
@@ -228,10 +230,11 @@ pub unsafe extern "C" fn stickslip_interface_adjoint(
 /// Products from the right: d residual / d (what the residual depends on besides multipliers) along a direction. For tangents of a run,
 /// forwards: K_n dy_n = - this, with the motion of step n - 1 in previous1 and previous2.
 ///
-/// x1, x2, lambda: as for `stickslip_interface_previous_tangent_coo`. Outputs: force1 (3 n1), force2 (3 n2), rows (3 n1, or n1 without
-/// friction).
+/// x1, x2, lambda: as for `stickslip_interface_previous_tangent_coo`. direction: the members that are not NULL count. Outputs: force1 (3 n1),
+/// force2 (3 n2), rows (3 n1, or n1 without friction).
 ///
-/// Errors and cost: as `stickslip_interface_adjoint`.
+/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, UNSUPPORTED, as `stickslip_interface_adjoint`.
+/// Cost: as there. Allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_sensitivity(
     interface: *mut stickslip_interface,
