@@ -23,6 +23,7 @@ use super::tangent::turning::{Turning, Turns};
 use super::weights::facet::{FacetWeights, each_facet};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
+use crate::law::Remembers;
 use crate::memory::{self, Stored};
 use nalgebra::SVector;
 use std::ops::Range;
@@ -257,6 +258,7 @@ impl<const N: usize> Contact<N> {
             nodes: &setup.nodes,
             components: N,
             slip,
+            first_gap: f64::from(setup.options.friction.law().remembers == Remembers::FirstGap),
             x,
             sums,
             answers: &answers,

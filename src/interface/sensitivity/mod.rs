@@ -98,6 +98,8 @@ pub struct At<'a> {
     pub components: usize,
     /// Whether anything follows slip, and how much of the gap of t_n is taken off it.
     pub slip: Option<f64>,
+    /// How much of the first gap is taken off the gap of now: 1 of tied surfaces, else 0.
+    pub first_gap: f64,
     /// Positions of both sides.
     pub x: [&'a [Vec3]; 2],
     /// What the nodes assemble.
