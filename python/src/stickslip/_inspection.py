@@ -2,7 +2,7 @@
 
 import warnings
 from collections.abc import Callable
-from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from ._arrays import pointer
 from ._library import ffi
 from .errors import StepRefused, StepWarning
+from .results import Counters, Diagnosis, Equilibrium, Report, States
 
 _TYPES = {"double": np.float64, "int32_t": np.int32, "int64_t": np.int64}
 # No sentence of the library comes near it.
@@ -48,7 +49,7 @@ class Inspection:
     _point: Callable[..., tuple]
     _positions: Callable[..., tuple]
 
-    def states(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, sums: ArrayLike | None = None) -> SimpleNamespace:
+    def states(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, sums: ArrayLike | None = None) -> States:
         """Arrays by the names of ``stickslip_states``: state, normal, traction, gap, slip, coverage, area, ...
 
         Call it before the commit.
@@ -65,18 +66,18 @@ class Inspection:
         for member, address in kept.items():
             setattr(out, member, address)
         self._call("states", *self._point(x1, x2, lam, sums), out)
-        return SimpleNamespace(**arrays)
+        return States(**arrays)
 
     def equilibrium(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, modulus: float = 0.0,
-                    least_traction: float = 0.0, sums: ArrayLike | None = None) -> SimpleNamespace:
+                    least_traction: float = 0.0, sums: ArrayLike | None = None) -> Equilibrium:
         """How far the point is from equilibrium, by the names of ``stickslip_equilibrium``."""
         out = _new("equilibrium")
         out.modulus, out.least_traction = modulus, least_traction
         self._call("equilibrium", *self._point(x1, x2, lam, sums), out)
-        return SimpleNamespace(**_scalars(out, "equilibrium"))
+        return Equilibrium(**_scalars(out, "equilibrium"))
 
     def check_step(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, modulus: float = 0.0, least_traction: float = 0.0,
-                   tolerance: float = 1e-10, sums: ArrayLike | None = None) -> SimpleNamespace:
+                   tolerance: float = 1e-10, sums: ArrayLike | None = None) -> Equilibrium:
         """Asks whether a step may count, before its commit: :meth:`equilibrium`, judged as docs/host_convergence.md says.
 
         Raises :class:`stickslip.StepRefused` where the contact is not in equilibrium to ``tolerance``, bodies really overlap or are apart
@@ -103,7 +104,7 @@ class Inspection:
                 warnings.warn(text, StepWarning, stacklevel=2)
         return e
 
-    def report(self, x1: ArrayLike, x2: ArrayLike) -> SimpleNamespace:
+    def report(self, x1: ArrayLike, x2: ArrayLike) -> Report:
         """Which nodes are covered, and what surfaces that do not meet look like; ``text`` says it in sentences."""
         out = _new("report")
         arrays: dict[str, np.ndarray] = {"cover": np.zeros(self.n1, np.int32), "fraction": np.zeros(self.n1),
@@ -114,15 +115,15 @@ class Inspection:
         buffer = ffi.new("char[]", _TEXT)
         out.text, out.text_capacity = buffer, _TEXT
         self._call("report", *self._positions(x1, x2), out)
-        return SimpleNamespace(**_scalars(out, "report"), **arrays, text=ffi.string(buffer).decode())
+        return Report(**_scalars(out, "report"), **arrays, text=ffi.string(buffer).decode())
 
-    def diagnose(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, sums: ArrayLike | None = None) -> SimpleNamespace:
+    def diagnose(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, sums: ArrayLike | None = None) -> Diagnosis:
         """The worst pairs and where the matrix may be singular; ``text`` says it in sentences."""
         out = _new("diagnosis")
         buffer = ffi.new("char[]", _TEXT)
         out.text, out.text_capacity = buffer, _TEXT
         self._call("diagnose", *self._point(x1, x2, lam, sums), out)
-        return SimpleNamespace(**_scalars(out, "diagnosis"), text=ffi.string(buffer).decode())
+        return Diagnosis(**_scalars(out, "diagnosis"), text=ffi.string(buffer).decode())
 
     def effects(self) -> str:
         """What the interface computes and why, in sentences."""
@@ -130,11 +131,11 @@ class Inspection:
         self._call("effects", buffer, _TEXT)
         return ffi.string(buffer).decode()
 
-    def counters(self) -> SimpleNamespace:
+    def counters(self) -> Counters:
         """What the interface has done, by the names of ``stickslip_counters``."""
         out = _new("counters")
         self._call("counters", out)
-        return SimpleNamespace(**_scalars(out, "counters"))
+        return Counters(**_scalars(out, "counters"))
 
     def carriers(self) -> tuple:
         """``(nodes, carriers, weights)``: which nodes carry weakly covered ones in this step, lam[A] = sum of w_AB lam[B].

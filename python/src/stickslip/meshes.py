@@ -1,13 +1,13 @@
 """What to do with surfaces before they become interfaces: creases, and nodes that interfaces share."""
 
 from collections.abc import Sequence
-from types import SimpleNamespace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ._arrays import given, pointer
 from ._library import call, ffi
+from .results import Crosspoints
 from .surface import Surface
 
 
@@ -43,7 +43,7 @@ def split_creases(coordinates: ArrayLike, facets: Sequence, angle: float = 0.7) 
     return np.split(numbers, surface.facet_offsets[1:-1]), originals
 
 
-def crosspoints(interfaces: Sequence[tuple]) -> SimpleNamespace:
+def crosspoints(interfaces: Sequence[tuple]) -> Crosspoints:
     """The nodes that several interfaces of a host share in a way that matters.
 
     Parameters
@@ -69,4 +69,4 @@ def crosspoints(interfaces: Sequence[tuple]) -> SimpleNamespace:
     n = count[0]
     nodes, kinds, claims = np.empty(n, np.int64), np.empty(n, np.int32), np.empty(n, np.int64)
     call("crosspoints_find", *arguments, n, pointer(nodes), pointer(kinds), pointer(claims), count)
-    return SimpleNamespace(nodes=nodes, kinds=kinds, claims=claims)
+    return Crosspoints(nodes=nodes, kinds=kinds, claims=claims)

@@ -1,0 +1,136 @@
+"""Load steps: starts, attempts, cut-backs, commits, as docs/host_steps.md has them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .contact import Contact
+from .errors import Error, StepRefused
+from .newton import Solver, newton
+from .results import States
+from .skin import Reals
+
+
+@dataclass
+class Step:
+    """A step that has converged and is committed."""
+
+    #: Its end.
+    time: float
+    #: All unknowns then: those of the host, and multipliers where they are not condensed.
+    x: Reals
+    #: Newton iterations of all that went.
+    iterations: int
+    #: How often it was cut back.
+    cuts: int
+    #: What :meth:`Contact.states` said before the commit.
+    states: list[States]
+
+    def __str__(self) -> str:
+        states = "; ".join(map(str, self.states))
+        cut = f", cut back {self.cuts} times" if self.cuts else ""
+        return f"time {self.time:g}: {self.iterations} iterations{cut}, {states}"
+
+
+def steps(contact: Contact, residual: Callable[[Reals, float], ArrayLike], tangent: Callable[[Reals, float], Any],
+          times: Sequence[float], x: Reals | None = None, *, begin: float = 0.0, fixed: ArrayLike = (),
+          prescribed: Callable[[float], ArrayLike] | None = None, predictor: bool = True, most: int = 25, shortest: float = 1 / 64,
+          solve: Solver | None = None, progress: bool = False) -> Iterator[Step]:
+    """Solves step after step and gives each once it is committed: ``for step in stickslip.steps(...)``.
+
+    A step is tried from an extrapolation of the last two; from where it begins; from there with a line search; from there in two
+    phases, with the normals of its start first. Then it is cut into halves. Refusals, NaN and refused commits are failed attempts. A host
+    that raises :class:`stickslip.StepRefused` says so of its own.
+
+    Parameters
+    ----------
+    residual, tangent : as of :func:`newton`, called with the host's unknowns and the time
+    times : the ends of the steps; the first one begins at ``begin``
+    x : all unknowns at ``begin``; without it :meth:`Contact.start`. It is changed in place.
+    fixed, prescribed : which of the host's unknowns are prescribed, and their values, or one, at a time; without it 0
+    predictor : False: no extrapolation, for loads that jump
+    most, solve : as of :func:`newton`
+    shortest : the part of a step below which it is not cut: :class:`stickslip.StepRefused` is raised then
+    progress : True: a line is printed for each step, and for each cut-back
+    """
+    x = contact.start() if x is None else x
+    run = _Steps(contact, residual, tangent, fixed, prescribed or (lambda time: 0.0), {"most": most, "solve": solve}, predictor)
+    for end in times:
+        step = run.advance(x, begin, float(end), shortest * (end - begin), progress)
+        if progress:
+            print(step, flush=True)
+        yield step
+        begin = float(end)
+
+
+class _Steps:
+    """What stays from step to step."""
+
+    def __init__(self, contact: Contact, residual: Callable[[Reals, float], ArrayLike], tangent: Callable[[Reals, float], Any],
+                 fixed: ArrayLike, prescribed: Callable[[float], ArrayLike], options: dict[str, Any], predictor: bool):
+        self.contact, self.residual, self.tangent = contact, residual, tangent
+        self.fixed, self.prescribed, self.options, self.predictor = fixed, prescribed, options, predictor
+        #: The rate of all unknowns in the last step.
+        self.rate: Reals | None = None
+
+    def advance(self, x: Reals, begin: float, end: float, shortest: float, progress: bool) -> Step:
+        """From one time to another, in halves where it does not go at once."""
+        ends, iterations, cuts = [end], 0, 0
+        while ends:
+            before = x.copy()
+            try:
+                count, states = self._tried(x, begin, ends[-1])
+            except Error as error:
+                x[:] = before
+                if not 0.5 * (ends[-1] - begin) >= shortest:
+                    raise StepRefused(f"time {begin:g}: no step is short enough. The last attempt: {error}") from error
+                ends.append(0.5 * (begin + ends[-1]))
+                cuts += 1
+                if progress:
+                    print(f"time {begin:g}: cut back to {ends[-1]:g}: {error}", flush=True)
+                continue
+            self.rate = (x - before) / (ends[-1] - begin)
+            iterations, begin = iterations + count, ends.pop()
+        return Step(end, x.copy(), iterations, cuts, states)
+
+    def _tried(self, x: Reals, begin: float, end: float) -> tuple[int, list[States]]:
+        """The first attempt that converges, checked and committed. Raises what the last one has."""
+        before = x.copy()
+        attempts = [self._full, self._searched]
+        if self.contact.use_normals("current"):
+            attempts.append(self._in_two_phases)
+        if self.predictor and self.rate is not None:
+            attempts.insert(0, self._full)
+            x += (end - begin) * self.rate
+        for attempt in attempts:
+            try:
+                iterations = attempt(x, end)
+                break
+            except Error as error:
+                x[:], failed = before, error
+        else:
+            raise failed
+        self.contact.check(x)
+        states = self.contact.states(x)
+        self.contact.commit(x)
+        return iterations, states
+
+    def _full(self, x: Reals, time: float, search: bool = False) -> int:
+        return newton(self.contact, lambda u: self.residual(u, time), lambda u: self.tangent(u, time), x, fixed=self.fixed,
+                      values=self.prescribed(time), search=search, **self.options)
+
+    def _searched(self, x: Reals, time: float) -> int:
+        return self._full(x, time, search=True)
+
+    def _in_two_phases(self, x: Reals, time: float) -> int:
+        self.contact.use_normals("committed")
+        try:
+            first = self._full(x, time)
+        finally:
+            self.contact.use_normals("current")
+        return first + self._full(x, time)
