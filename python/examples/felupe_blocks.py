@@ -19,4 +19,4 @@ def block(lower, upper, cells, young, poisson):
     return mesh.points, mesh.cells, internal
 
 
-two_blocks.main("FElupe", block)
+two_blocks.main("FElupe", block, moves_along=True)

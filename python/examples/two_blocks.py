@@ -19,11 +19,12 @@ FRICTION, STEPS = 0.3, 4
 HEIGHT = 0.8  # of the surfaces in contact
 
 
-def solve(make_body, patch, steps):
+def solve(make_body, patch, steps, moves_along=False):
     """Nodes, displacements, the upper facets, their states in the last step, and the forces on the top of each step.
 
     make_body(lower, upper, cells, young, poisson): (nodes (n, 3), hexahedra (m, 8), internal), where internal(u) gives the
-    body's forces (n, 3) and its stiffness, node by node.
+    body's forces (n, 3) and its stiffness, node by node. moves_along: a step starts with the upper body moved as its top is, as
+    the driver does at finite strain.
     """
     margin, poisson = (0.0, 0.0) if patch else (0.1, 0.3)
     grip = np.array([0.0, 0.0, -0.005] if patch else [0.002, 0.0008, -0.005])
@@ -43,10 +44,14 @@ def solve(make_body, patch, steps):
     contact = stickslip.Contact(X).add(side1, side2, mu=FRICTION, modulus=young)
     dofs = np.arange(X.size).reshape(X.shape)
     top, bottom = dofs[np.isclose(X[:, 2], 2 * HEIGHT)], dofs[np.isclose(X[:, 2], 0)]
+
+    def move(x, begin, end):
+        x[: X1.size] += np.tile((end - begin) * grip, n1)
+
     reactions = []
     for number, step in enumerate(stickslip.steps(
             contact, lambda u, time: internal(u)[0], lambda u, time: internal(u)[1], np.linspace(0, 1, steps + 1)[1:],
-            fixed=np.concatenate([top, bottom]), predictor=False,
+            fixed=np.concatenate([top, bottom]), predictor=False, start=move if moves_along else None,
             prescribed=lambda time: np.concatenate([np.tile(time * grip, len(top)), np.zeros(bottom.size)])), 1):
         lam = step.x[X.size + 2 :: 3]
         print(f"step {number}: {step.iterations} iterations, {step.states[0]}, multipliers along z {lam.min():.16g} {lam.max():.16g}")
@@ -73,14 +78,14 @@ def draw(picture, title, X, u, side1, states, reactions):
     figure.savefig(picture, dpi=120)
 
 
-def main(title, make_body):
+def main(title, make_body, **options):
     """Carries out what the arguments say."""
     words = sys.argv[1:]
     if len(words) == 3 and words[0] in ("friction", "patch"):
-        X, u, *_ = solve(make_body, words[0] == "patch", int(words[1]))
+        X, u, *_ = solve(make_body, words[0] == "patch", int(words[1]), **options)
         np.savetxt(words[2], np.hstack([X, u]), fmt="%.17g")
     elif len(words) <= 1:
-        found = solve(make_body, False, STEPS)
+        found = solve(make_body, False, STEPS, **options)
         if words:
             draw(words[0], title, *found)
     else:

@@ -14,6 +14,7 @@ from .errors import Error, StepRefused, StepWarning
 from .interface import Interface
 from .meshes import crosspoints, split_creases
 from .newton import newton
+from .options import Options
 from .plan import CondensedPlan, Plan
 from .results import Counters, Crosspoints, Diagnosis, Equilibrium, Report, State, States
 from .rigid import RigidBody, RigidPlan
@@ -27,7 +28,7 @@ __version__ = text(lib.stickslip_version())
 __build__ = text(lib.stickslip_build())
 
 __all__ = ["Condensed", "CondensedPlan", "Contact", "Counters", "Crosspoints", "Diagnosis", "Equilibrium", "Error", "Heat", "Interface",
-           "LawPoint", "Plan", "Report", "RigidBody", "RigidPlan", "State", "States", "Step", "StepRefused", "StepWarning", "Surface",
+           "LawPoint", "Options", "Plan", "Report", "RigidBody", "RigidPlan", "State", "States", "Step", "StepRefused", "StepWarning", "Surface",
            "constants", "crosspoints", "errors", "header", "newton", "skin", "split_creases", "steps"]
 
 

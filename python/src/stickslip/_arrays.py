@@ -46,8 +46,9 @@ def _check_shape(name: str, value: np.ndarray, shape: tuple) -> None:
 def given(name: str, value: ArrayLike, shape: tuple, dtype=np.float64) -> np.ndarray:
     """An input of this shape, or with as many entries in one row.
 
-    Lists are converted, and so are integers of another length, as those of 32 bits that PETSc numbers its unknowns with: they are
-    read once. Else an ndarray has to fit as it is: a silent copy in each iteration would cost unseen.
+    Lists are converted, and so are integers of another length, as those of 32 bits that PETSc numbers its unknowns with. An array in
+    another order, such as the transpose of one, is copied into C's; one in C's order is used as it is. Reals are float64: of others
+    digits are lost already.
     """
     value = converted(name, value, dtype)
     integers = np.dtype(dtype).kind == "i" and value.dtype.kind in "iu"
@@ -55,9 +56,8 @@ def given(name: str, value: ArrayLike, shape: tuple, dtype=np.float64) -> np.nda
         value = value.astype(dtype, copy=False)
     if value.dtype != dtype:
         raise WrongType(f"{name}: dtype {value.dtype}, {np.dtype(dtype)} is needed")
-    if not value.flags.c_contiguous:
-        raise InvalidValue(f"{name}: not in C order, numpy.ascontiguousarray makes it so")
     _check_shape(name, value, shape)
+    value = np.ascontiguousarray(value)
     if np.dtype(dtype).kind == "f" and not np.isfinite(value).all():
         raise NotFinite(f"{name}: entry {int(np.argmin(np.isfinite(value).ravel()))} is NaN or infinite")
     return value

@@ -45,6 +45,7 @@ class Inspection:
 
     n1: int
     _shape1: tuple
+    _told: str
     _call: Callable[..., None]
     _point: Callable[..., tuple]
     _positions: Callable[..., tuple]
@@ -66,7 +67,9 @@ class Inspection:
         for member, address in kept.items():
             setattr(out, member, address)
         self._call("states", *self._point(x1, x2, lam, sums), out)
-        return States(**arrays)
+        states = States(**arrays)
+        self._told = f"last seen: {states}"
+        return states
 
     def equilibrium(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, modulus: float = 0.0,
                     least_traction: float = 0.0, sums: ArrayLike | None = None) -> Equilibrium:

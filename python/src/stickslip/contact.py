@@ -12,12 +12,14 @@ from ._arrays import given
 from ._pair import Pair
 from .errors import InvalidSize, InvalidValue
 from .interface import Interface
+from .options import Options, with_options
 from .results import States
 from .skin import Facets, Integers, Reals
 from .surface import Surface
 
 if TYPE_CHECKING:
     import scipy.sparse
+    from typing_extensions import Unpack
 
 #: Positions of both sides, and the multipliers.
 Point = tuple[Reals, Reals, Reals]
@@ -73,7 +75,7 @@ class Contact:
         self._commits = 0
 
     def add(self, facets1: Facets, facets2: Facets | Surface, *, held: ArrayLike = (), crease: float | None = None,
-            **options: Any) -> Contact:
+            **options: Unpack[Options]) -> Contact:
         """Adds an interface, and gives itself, so that more can be added.
 
         Parameters
@@ -83,13 +85,13 @@ class Contact:
             to its ``coordinates`` moves it.
         held : dofs of nodes of the first side that are prescribed on *both* sides, as on a plane of symmetry: no multiplier there
         crease : nodes on edges of the first side that are sharper than this angle get multipliers a face [rad]: docs/host_edges.md
-        **options : of :class:`stickslip.Interface`
+        **options : :class:`stickslip.Options`, as of :class:`stickslip.Interface`
         """
         if self._start is not None:
             raise InvalidValue("add: all interfaces are needed before start")
         numbers = self.dofs if self._map is None else np.arange(self.X.size).reshape(self.X.shape)
         self._pairs.append(Pair(self.X, numbers, self._n_inner + self.n_multipliers, (facets1, facets2), crease=crease,
-                                held=np.asarray(held, dtype=np.int64).ravel(), condensed=self.condensed, options=options))
+                                held=np.asarray(held, dtype=np.int64).ravel(), condensed=self.condensed, options=dict(options)))
         return self
 
     @property
@@ -217,6 +219,15 @@ class Contact:
             face.use_normals(normals)
         return bool(turning)
 
+    def turn_multipliers(self, x: Reals) -> None:
+        """Turns multipliers in place with the surfaces, where a step starts from positions that are turned already."""
+        last = self.n_host
+        for pair, (x1, _, lam) in self._evaluated(x):
+            first, last = last, last + pair.count
+            pair.face.turn_multipliers(x1, lam)
+            if not self.condensed:
+                x[first:last] = lam[pair.mask]
+
     def first_side(self) -> Integers:
         """The host's unknowns of all nodes that have multipliers."""
         numbers = np.concatenate([pair.equations1[pair.mask.reshape(len(pair.mask), -1).any(axis=1)].ravel() for pair in self._pairs])
@@ -256,3 +267,6 @@ def _grown(K: scipy.sparse.csr_matrix, n_host: int, size: int) -> scipy.sparse.c
         raise InvalidSize(f"K: shape {K.shape}, {(n_host, n_host)} or {(size, size)} is needed")
     offsets = np.concatenate([K.indptr, np.full(size - K.shape[0], K.indptr[-1], K.indptr.dtype)])
     return scipy.sparse.csr_matrix((K.data, K.indices, offsets), shape=(size, size), copy=False)
+
+
+Contact.add.__signature__ = with_options(Contact.add)  # type: ignore[attr-defined]

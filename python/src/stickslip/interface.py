@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -19,6 +20,7 @@ from .surface import Surface
 
 if TYPE_CHECKING:
     import scipy.sparse
+    from typing_extensions import Unpack
 
 
 class Interface(Heats, Inspection, Laws):
@@ -33,14 +35,14 @@ class Interface(Heats, Inspection, Laws):
     nonmortar, mortar : Surface
         The non-mortar side has the multipliers.
     **options
-        Members of ``stickslip_options`` and of ``stickslip_method`` by name, for example
+        :class:`stickslip.Options`: members of ``stickslip_options`` and of ``stickslip_method`` by name, for example
         ``mu=0.2, modulus=210e3, model="plane"``; ``method="paper"`` takes the paper's element.
         A choice is the end of the header's constant in small letters. What is left out has the library's default.
     """
 
-    def __init__(self, nonmortar: Surface, mortar: Surface, **options):
+    def __init__(self, nonmortar: Surface, mortar: Surface, **options: Unpack[_options.Options]):
         self._handle = ffi.NULL
-        made, _method = _options.make(options)
+        made, _method = _options.make(dict(options))
         first, kept_first = nonmortar._struct()
         second, kept_second = mortar._struct()
         self.dimension = 3 if made.model == value_of("model", "MODEL", "solid") else 2
@@ -60,6 +62,12 @@ class Interface(Heats, Inspection, Laws):
         call("interface_create", first, second, made, slot)
         del kept_first, kept_second
         self._handle = slot[0]
+        law = _options.word("FRICTION", made.friction)
+        self._text = f"{nonmortar} on {mortar}, {law}{f', mu {made.mu:g}' if made.mu else ''}"
+        self._told = "no states yet"
+
+    def __repr__(self) -> str:
+        return f"<Interface: {self._text}; {'closed' if self._handle == ffi.NULL else self._told}>"
 
     def close(self) -> None:
         """Gives the handle back. A second time does nothing."""
@@ -242,5 +250,9 @@ class Interface(Heats, Inspection, Laws):
         """Turns multipliers with the normals, in place, at the start of a step."""
         if not isinstance(lam, np.ndarray):
             raise TypeError(f"lam: {type(lam).__name__}, an ndarray is needed, for the call writes to it")
-        lam = output("lam", given("lam", lam, self._shape_multipliers), self._shape_multipliers)
+        given("lam", output("lam", lam, self._shape_multipliers), self._shape_multipliers)
         self._call("turn_multipliers", pointer(given("x1", x1, self._shape1)), pointer(lam))
+
+
+# For help, and for completion.
+Interface.__signature__ = inspect.Signature(list(_options.with_options(Interface.__init__).parameters.values())[1:])  # type: ignore[attr-defined]

@@ -53,7 +53,7 @@ def _superlu(A: scipy.sparse.csr_matrix, b: Reals) -> Reals:
     try:
         out: Reals = splu(A.tocsc()).solve(b)
     except RuntimeError as error:
-        raise StepRefused(f"Newton's matrix: {error}") from None
+        raise StepRefused("Newton's matrix is singular") from error
     return out
 
 

@@ -16,6 +16,9 @@ from .results import States
 from .skin import Reals
 
 
+Start = Callable[[Reals, float, float], None]
+
+
 @dataclass
 class Step:
     """A step that has converged and is committed."""
@@ -39,8 +42,9 @@ class Step:
 
 def steps(contact: Contact, residual: Callable[[Reals, float], ArrayLike], tangent: Callable[[Reals, float], Any],
           times: Sequence[float], x: Reals | None = None, *, begin: float = 0.0, fixed: ArrayLike = (),
-          prescribed: Callable[[float], ArrayLike] | None = None, predictor: bool = True, most: int = 25, shortest: float = 1 / 64,
-          solve: Solver | None = None, progress: bool = False) -> Iterator[Step]:
+          prescribed: Callable[[float], ArrayLike] | None = None, predictor: bool = True, start: Start | None = None, most: int = 25,
+          shortest: float = 1 / 64, solve: Solver | None = None, accepted: Callable[[Reals, float], None] | None = None,
+          progress: bool = False) -> Iterator[Step]:
     """Solves step after step and gives each once it is committed: ``for step in stickslip.steps(...)``.
 
     A step is tried from an extrapolation of the last two; from where it begins; from there with a line search; from there in two
@@ -54,14 +58,18 @@ def steps(contact: Contact, residual: Callable[[Reals, float], ArrayLike], tange
     x : all unknowns at ``begin``; without it :meth:`Contact.start`. It is changed in place.
     fixed, prescribed : which of the host's unknowns are prescribed, and their values, or one, at a time; without it 0
     predictor : False: no extrapolation, for loads that jump
+    start : ``start(x, begin, end)`` changes x in place to where Newton's method begins, such as a body moved or turned with its supports
+        (then :meth:`Contact.turn_multipliers`); there is no extrapolation with it. Without it a step begins where the last one ended.
     most, solve : as of :func:`newton`
     shortest : the part of a step below which it is not cut: :class:`stickslip.StepRefused` is raised then
+    accepted : ``accepted(x, time)`` is called after each commit, those of parts of a step, too: for a host that has a history of its own
     progress : True: a line is printed for each step, and for each cut-back
     """
     x = contact.start() if x is None else x
-    run = _Steps(contact, residual, tangent, fixed, prescribed or (lambda time: 0.0), {"most": most, "solve": solve}, predictor)
+    run = _Steps(contact, residual, tangent, start, predictor and start is None,
+                 fixed, prescribed or (lambda time: 0.0), {"most": most, "solve": solve})
     for end in times:
-        step = run.advance(x, begin, float(end), shortest * (end - begin), progress)
+        step = run.advance(x, begin, float(end), shortest * (end - begin), accepted, progress)
         if progress:
             print(step, flush=True)
         yield step
@@ -72,13 +80,14 @@ class _Steps:
     """What stays from step to step."""
 
     def __init__(self, contact: Contact, residual: Callable[[Reals, float], ArrayLike], tangent: Callable[[Reals, float], Any],
-                 fixed: ArrayLike, prescribed: Callable[[float], ArrayLike], options: dict[str, Any], predictor: bool):
+                 start: Start | None, predictor: bool, fixed: ArrayLike, prescribed: Callable[[float], ArrayLike], options: dict[str, Any]):
         self.contact, self.residual, self.tangent = contact, residual, tangent
-        self.fixed, self.prescribed, self.options, self.predictor = fixed, prescribed, options, predictor
+        self.start, self.predictor, self.fixed, self.prescribed, self.options = start, predictor, fixed, prescribed, options
         #: The rate of all unknowns in the last step.
         self.rate: Reals | None = None
 
-    def advance(self, x: Reals, begin: float, end: float, shortest: float, progress: bool) -> Step:
+    def advance(self, x: Reals, begin: float, end: float, shortest: float, accepted: Callable[[Reals, float], None] | None,
+                progress: bool) -> Step:
         """From one time to another, in halves where it does not go at once."""
         ends, iterations, cuts = [end], 0, 0
         while ends:
@@ -96,23 +105,27 @@ class _Steps:
                 continue
             self.rate = (x - before) / (ends[-1] - begin)
             iterations, begin = iterations + count, ends.pop()
+            if accepted is not None:
+                accepted(x, begin)
         return Step(end, x.copy(), iterations, cuts, states)
 
     def _tried(self, x: Reals, begin: float, end: float) -> tuple[int, list[States]]:
         """The first attempt that converges, checked and committed. Raises what the last one has."""
-        before = x.copy()
-        attempts = [self._full, self._searched]
+        started = x.copy()
+        if self.start is not None:
+            self.start(started, begin, end)
+        attempts = [(self._full, started), (self._searched, started)]
         if self.contact.use_normals("current"):
-            attempts.append(self._in_two_phases)
+            attempts.append((self._in_two_phases, started))
         if self.predictor and self.rate is not None:
-            attempts.insert(0, self._full)
-            x += (end - begin) * self.rate
-        for attempt in attempts:
+            attempts.insert(0, (self._full, x + (end - begin) * self.rate))
+        for attempt, first in attempts:
+            x[:] = first
             try:
                 iterations = attempt(x, end)
                 break
             except Error as error:
-                x[:], failed = before, error
+                failed = error
         else:
             raise failed
         self.contact.check(x)

@@ -48,6 +48,13 @@ class Surface:
             self.multiplier_equations = given("multiplier_equations", multiplier_equations, wanted, np.int64)
         self.owned = None if owned is None else given("owned", owned, (self.n_nodes,), np.int32)
 
+    def __str__(self) -> str:
+        facets = "lines" if self.dimension == 2 else "facets"
+        return f"{len(self.facet_offsets) - 1} {facets} of {self.n_nodes} nodes"
+
+    def __repr__(self) -> str:
+        return f"<Surface: {self}>"
+
     def _struct(self):
         """The C struct, and what has to live as long as it does."""
         out = ffi.new("struct stickslip_surface *")
