@@ -138,6 +138,29 @@ def test_meshes_of_other_libraries_are_taken_as_they_are():
     assert stickslip.skin(flat).shape == (3, 2)
 
 
+@pytest.mark.parametrize("kind, degree, count", [("tetrahedron", 1, 3), ("tetrahedron", 2, 6), ("hexahedron", 1, 4), ("hexahedron", 2, 9)])
+def test_cells_as_fenicsx_draws_them(kind, degree, count):
+    plot = pytest.importorskip("dolfinx.plot", reason="the cells are those of dolfinx, which is not installed")
+    from dolfinx import fem, mesh
+    from mpi4py import MPI
+
+    made = mesh.create_unit_cube(MPI.COMM_SELF, 2, 2, 2, getattr(mesh.CellType, kind))
+    space = getattr(fem, "functionspace", fem.FunctionSpace)(made, ("Lagrange", degree))
+    topology, types, X = (getattr(plot, "vtk_mesh", None) or plot.create_vtk_mesh)(space)
+    facets = stickslip.skin(topology.reshape(len(types), -1)[:, 1:], X)
+    assert facets.shape[1] == count and volume(facets, X) == pytest.approx(1, abs=ROUNDING)
+    check_mids(facets, X)
+
+
+@pytest.mark.parametrize("kind, count", [("Tet", 6), ("Hex", 9)])
+def test_cells_of_order_2_of_scikit_fem(kind, count):
+    skfem = pytest.importorskip("skfem", reason="the cells are those of scikit-fem, which is not installed")
+    basis = skfem.Basis(getattr(skfem, f"Mesh{kind}")().refined(1), getattr(skfem, f"Element{kind}{'P' if kind == 'Tet' else ''}2")())
+    facets = stickslip.skin(basis.element_dofs.T, basis.doflocs.T)
+    assert facets.shape[1] == count and volume(facets, basis.doflocs.T) == pytest.approx(1, abs=ROUNDING)
+    check_mids(facets, basis.doflocs.T)
+
+
 def test_cells_that_are_none_are_refused_by_name():
     X, cells = box((0, 0, 0), (1, 1, 1), (2, 2, 2))
     for bad, points, words in ((cells, None, "X: .*is needed"), (cells, X[0], "X: shape"), (cells[:, :7], X, "cells: 7 nodes"),
