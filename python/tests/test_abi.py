@@ -58,6 +58,8 @@ def test_every_status_has_a_class_of_its_own():
     assert len({made.__name__ for made in errors.by_status.values()}) == len(known)
     for status, made in errors.by_status.items():
         assert issubclass(made, stickslip.Error) and made.status == status
+        bases = ", ".join(base.__name__ for base in made.__bases__)
+        assert f"    class {made.__name__}({bases}): ...\n" in (SOURCES / "errors.py").read_text()  # for editors and type checkers
         assert made("why", status).status == status
     assert issubclass(errors.OutOfMemory, MemoryError) and issubclass(errors.IndexOutOfRange, IndexError)
 

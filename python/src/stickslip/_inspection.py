@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._arrays import pointer
+from ._arrays import Array, pointer
 from ._library import ffi
 from .errors import StepRefused, StepWarning
 from .results import Counters, Diagnosis, Equilibrium, Report, States
@@ -19,11 +19,11 @@ _TEXT = 1 << 16
 _OVERLAP, _LAG = (0.003, 0.1), (0.01, 0.1)
 
 
-def _members(name: str):
+def _members(name: str) -> list[tuple[str, Any]]:
     return [(member, field.type) for member, field in ffi.typeof(f"struct stickslip_{name}").fields]
 
 
-def _scalars(struct, name: str) -> dict:
+def _scalars(struct: Any, name: str) -> dict[str, Any]:
     """The members that are numbers, and the short arrays among them."""
     out = {}
     for member, kind in _members(name):
@@ -34,7 +34,7 @@ def _scalars(struct, name: str) -> dict:
     return out
 
 
-def _new(name: str):
+def _new(name: str) -> Any:
     struct = ffi.new(f"struct stickslip_{name} *")
     struct.struct_size = ffi.sizeof(f"struct stickslip_{name}")
     return struct
@@ -44,11 +44,11 @@ class Inspection:
     """The part of :class:`stickslip.Interface` that changes nothing. What it needs of the rest:"""
 
     n1: int
-    _shape1: tuple
+    _shape1: tuple[int, ...]
     _told: str
     _call: Callable[..., None]
-    _point: Callable[..., tuple]
-    _positions: Callable[..., tuple]
+    _point: Callable[..., tuple[Any, ...]]
+    _positions: Callable[..., tuple[Any, ...]]
 
     def states(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, sums: ArrayLike | None = None) -> States:
         """Arrays by the names of ``stickslip_states``: state, normal, traction, gap, slip, coverage, area, ...
@@ -110,7 +110,7 @@ class Inspection:
     def report(self, x1: ArrayLike, x2: ArrayLike) -> Report:
         """Which nodes are covered, and what surfaces that do not meet look like; ``text`` says it in sentences."""
         out = _new("report")
-        arrays: dict[str, np.ndarray] = {"cover": np.zeros(self.n1, np.int32), "fraction": np.zeros(self.n1),
+        arrays: dict[str, Any] = {"cover": np.zeros(self.n1, np.int32), "fraction": np.zeros(self.n1),
                                          "layers": np.zeros(self.n1, np.int32)}
         kept = {member: pointer(array) for member, array in arrays.items()}
         for member, address in kept.items():
@@ -132,7 +132,7 @@ class Inspection:
         """What the interface computes and why, in sentences."""
         buffer = ffi.new("char[]", _TEXT)
         self._call("effects", buffer, _TEXT)
-        return ffi.string(buffer).decode()
+        return str(ffi.string(buffer).decode())
 
     def counters(self) -> Counters:
         """What the interface has done, by the names of ``stickslip_counters``."""
@@ -140,7 +140,7 @@ class Inspection:
         self._call("counters", out)
         return Counters(**_scalars(out, "counters"))
 
-    def carriers(self) -> tuple:
+    def carriers(self) -> tuple[Array, Array, Array]:
         """``(nodes, carriers, weights)``: which nodes carry weakly covered ones in this step, lam[A] = sum of w_AB lam[B].
 
         Read it after a commit.

@@ -230,7 +230,7 @@ class Contact:
 
     def first_side(self) -> Integers:
         """The host's unknowns of all nodes that have multipliers."""
-        numbers = np.concatenate([pair.equations1[pair.mask.reshape(len(pair.mask), -1).any(axis=1)].ravel() for pair in self._pairs])
+        numbers: Integers = np.concatenate([pair.equations1[pair.mask.reshape(len(pair.mask), -1).any(axis=1)].ravel() for pair in self._pairs])
         return numbers[numbers >= 0]
 
     def report(self) -> str:

@@ -70,7 +70,7 @@ class _Run:
         if contact.condensed and not self.free[contact.first_side()].all():
             raise InvalidValue("fixed: a node of the first side, whose rows a condensed contact needs")
         self.bodies: NDArray[np.int32] | None = None
-        self.largest = 0.0
+        self.largest: Reals | float = 0.0
 
     def evaluate(self, x: Reals) -> tuple[Reals, Reals]:
         """The residual of all unknowns, and the host's own part of it."""

@@ -2,7 +2,7 @@
 
 import inspect
 import operator
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Literal, TypedDict
 
 from ._library import call, constants, ffi, value_of, words
@@ -89,12 +89,12 @@ def members() -> list[str]:
     return [*_fields(_OPTIONS), *_fields(_METHOD)]
 
 
-def _fields(struct: str) -> dict:
+def _fields(struct: str) -> dict[str, str]:
     fields = ffi.typeof(struct).fields
     return {name: field.type.cname for name, field in fields if name not in ("struct_size", "method")}
 
 
-def make(given: dict):
+def make(given: dict[str, Any]) -> tuple[Any, Any]:
     """The C struct: the library's defaults, or the paper's element (``method="paper"``), then what was given. What it points to
     comes second, and has to live as long."""
     out, method = ffi.new(f"{_OPTIONS} *"), ffi.new(f"{_METHOD} *")
@@ -119,7 +119,7 @@ def make(given: dict):
     return out, method
 
 
-def _number(name: str, value):
+def _number(name: str, value: Any) -> Any:
     kind = {**_fields(_OPTIONS), **_fields(_METHOD)}[name]
     if kind == "double":
         if name == "weak_coverage" and value == "none":
@@ -133,7 +133,7 @@ def _number(name: str, value):
     return value_of(name, prefix, value)
 
 
-def _taken(name: str, value, take, what: str):
+def _taken(name: str, value: Any, take: Callable[[Any], Any], what: str) -> Any:
     try:
         if isinstance(value, str):
             raise TypeError
@@ -142,7 +142,7 @@ def _taken(name: str, value, take, what: str):
         raise TypeError(f"{name}: {value!r}, {what} is needed") from None
 
 
-def _sum(value, prefix: str) -> int:
+def _sum(value: Any, prefix: str) -> int:
     """Shortcuts add up: a number, or words in a list."""
     if isinstance(value, int):
         return value

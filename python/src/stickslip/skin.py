@@ -168,7 +168,7 @@ class _Block:
         """The corners in VTK's order, from that or one of the orders that have a name."""
         n = self.shape.corners
         for order in (tuple(range(n)), *self.shape.orders):
-            ordered = np.concatenate([cells[:, order], cells[:, n:]], axis=1)
+            ordered: Integers = np.concatenate([cells[:, order], cells[:, n:]], axis=1)
             if self._goes_round(ordered):
                 return ordered
         raise InvalidValue(f"cells: the corners of cells with {cells.shape[1]} nodes are not in VTK's order")
