@@ -12,8 +12,7 @@ from skfem.models.elasticity import lame_parameters, linear_elasticity
 
 import stickslip
 
-BORE, RADIUS, OUTER, EXCESS = 0.4, 1.0, 2.0, 0.003  # radii, and by how much the shaft is too thick
-YOUNG, POISSON = 1000.0, 0.3
+BORE, RADIUS, OUTER, EXCESS, YOUNG, POISSON = 0.4, 1.0, 2.0, 0.003, 1000.0, 0.3  # EXCESS: by how much the shaft is too thick
 
 
 def ring(inner, outer, n_radial, n_around):
@@ -37,9 +36,8 @@ def solve(n):
     symmetry = dofs[np.isclose(X, 0, atol=1e-9)]  # x = 0 does not move along x, y = 0 not along y
     contact = stickslip.Contact(X, dofs).add(face1, face2, held=symmetry, modulus=YOUNG, mu=0.0)
     (step,) = stickslip.steps(contact, lambda u, time: K @ u, lambda u, time: K, [1.0], fixed=symmetry, progress=True)
-    states, nodes = step.states[0], np.unique(face1)
-    corners = states.coverage > 0  # mid nodes have no multiplier
-    return np.arctan2(*X[nodes[corners]].T[::-1]), states.pressure[corners]
+    corners = step.states[0].coverage > 0  # mid nodes have no multiplier
+    return np.arctan2(*X[np.unique(face1)[corners]].T[::-1]), step.states[0].pressure[corners]
 
 
 def lame():
@@ -59,4 +57,4 @@ if __name__ == "__main__":
 
         plt.plot(np.degrees(angles), ratio, "o")
         plt.gca().set(xlabel="angle [degrees]", ylabel="pressure over Lame's", ylim=(0.95, 1.05))
-        plt.savefig(sys.argv[2], dpi=120)
+        plt.savefig(sys.argv[2])

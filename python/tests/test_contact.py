@@ -5,7 +5,7 @@ import pytest
 import scipy.sparse
 import stickslip
 from bodies import HEIGHT, YOUNG, Blocks
-from numpy_blocks import box
+from numpy_blocks import block, box
 
 # Central differences with this step: truncation and rounding both are below 1e-6 of the largest entry.
 STEP = 1e-6
@@ -198,6 +198,28 @@ def test_all_interfaces_accept_a_step_or_none():
     assert not any(np.array_equal(face.history()["reals"], reals) for face, reals in zip(contact.interfaces, before))
     contact.rollback()
     assert all(np.array_equal(face.history()["reals"], reals) for face, reals in zip(contact.interfaces, before))
+
+
+@pytest.mark.parametrize("condensed", [False, True])
+def test_three_bodies_and_two_interfaces(condensed):
+    """A stack under a constant pressure: the middle one has multipliers below, and the upper one's above."""
+    parts = [block((0.0, 0.0, z), (1.0, 1.0, z + 0.5), cells, YOUNG, 0.0) for z, cells in ((1.0, (2, 2, 1)), (0.5, (3, 3, 1)), (0.0, (4, 4, 1)))]
+    firsts = np.cumsum([0, *(len(X) for X, _, _ in parts)])
+    X = np.vstack([X for X, _, _ in parts])
+    K = scipy.sparse.block_diag([internal(np.zeros(own.shape))[1] for own, _, internal in parts], "csr")
+    faces = {(body, z): stickslip.skin(parts[body][1] + firsts[body], X, lambda x, z=z: np.isclose(x[2], z))
+             for body, z in ((0, 1.0), (1, 1.0), (1, 0.5), (2, 0.5))}
+    contact = stickslip.Contact(X, condensed=condensed)
+    contact.add(faces[0, 1.0], faces[1, 1.0], mu=0.3, modulus=YOUNG).add(faces[1, 0.5], faces[2, 0.5], mu=0.3, modulus=YOUNG)
+    dofs = np.arange(X.size).reshape(X.shape)
+    fixed = dofs[(X[:, 2] == 0) | (X[:, 2] == 1.5)]
+    values = np.where(X[(X[:, 2] == 0) | (X[:, 2] == 1.5), 2:] == 1.5, [0, 0, -0.01], 0.0)
+    x = contact.start()
+    assert stickslip.newton(contact, lambda u: K @ u, lambda u: K, x, fixed=fixed, values=values) == 1
+    for states, count in zip(contact.states(x), (9, 16)):
+        np.testing.assert_allclose(states.pressure, YOUNG * 0.01 / 1.5, rtol=1e-11)
+        assert str(states) == f"0 gap {count} stick 0 slip"
+    contact.commit(x)
 
 
 def test_what_is_wrong_is_told(blocks):

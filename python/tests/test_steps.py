@@ -108,28 +108,29 @@ def test_a_commit_that_is_refused_is_a_failed_step(blocks, monkeypatch):
 
 
 def test_attempts_follow_each_other(blocks, monkeypatch):
-    """Predictor, full steps, line search, two phases: each once where the one before has failed."""
+    """Predictor, full steps, line search, two phases, closing: each once where the one before has failed."""
     asked, normals, contact = [], ["current"], blocks.contact()
-    newton, use_normals = stickslip.newton, contact.use_normals
+    solved, use_normals = sys.modules["stickslip.steps"].solved, contact.use_normals
 
-    def failing(*arguments, search, **how):
-        asked.append((search, normals[-1], arguments[3].copy()))
-        if len(asked) in (2, 3, 4):  # of the second step all but the last
+    def failing(*arguments, search, closing, **how):
+        asked.append(("search" if search else "closing" if closing else "full", normals[-1], arguments[3].copy()))
+        if len(asked) in (2, 3, 4, 6):  # of the second step all but the last, of two phases the second
             raise stickslip.StepRefused("not yet")
-        return newton(*arguments, search=search, **how)
+        return solved(*arguments, search=search, closing=closing, **how)
 
     def watched(which):
         normals.append(which)
         return use_normals(which)
 
     monkeypatch.setattr(contact, "use_normals", watched)
-    monkeypatch.setattr(sys.modules["stickslip.steps"], "newton", failing)
+    monkeypatch.setattr(sys.modules["stickslip.steps"], "solved", failing)
     begun = contact.start()
     first, second = run(blocks, contact, times=(0.5, 1.0))
-    assert [(search, which) for search, which, _ in asked] == [
-        (False, "current"), (False, "current"), (False, "current"), (True, "current"), (False, "committed"), (False, "current")]
+    assert [(how, which) for how, which, _ in asked] == [
+        ("full", "current"), ("full", "current"), ("full", "current"), ("search", "current"), ("full", "committed"), ("full", "current"),
+        ("closing", "current")]
     np.testing.assert_allclose(asked[1][2], 2 * first.x - begun, atol=1e-15)
-    for _, _, start in asked[2:5]:
+    for _, _, start in (*asked[2:5], asked[6]):
         np.testing.assert_array_equal(start, first.x)
     assert second.cuts == 0
 

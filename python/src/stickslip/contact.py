@@ -83,7 +83,8 @@ class Contact:
         facets1, facets2 : node numbers as :func:`stickslip.skin` gives them. The first side has the multipliers: the smaller one, the softer
             one, the finer one. The second may be a :class:`stickslip.Surface` without unknowns, rigid or analytic; what is written
             to its ``coordinates`` moves it.
-        held : dofs of nodes of the first side that are prescribed on *both* sides, as on a plane of symmetry: no multiplier there
+        held : dofs of nodes of the first side that are prescribed on *both* sides, as on a plane of symmetry: no multiplier there. Where dofs
+            is a matrix, rows of it.
         crease : nodes on edges of the first side that are sharper than this angle get multipliers a face [rad]: docs/host_edges.md
         **options : :class:`stickslip.Options`, as of :class:`stickslip.Interface`
         """
@@ -227,6 +228,23 @@ class Contact:
             pair.face.turn_multipliers(x1, lam)
             if not self.condensed:
                 x[first:last] = lam[pair.mask]
+
+    def step_limit(self, x: Reals, step: Reals) -> float:
+        """How much of a change of all unknowns may be taken before surfaces lie in each other, at most 1."""
+        u, moved = self._displacements(x), self._displacements(step)
+        limits = [1.0]
+        for pair in self._pairs:
+            x1, x2 = pair.positions(u)
+            end1, end2 = pair.positions(u + moved)
+            limits.append(pair.face.step_limit(x1, x2, end1 - x1, end2 - x2))
+        return min(limits)
+
+    def unknowns_of_sides(self) -> list[tuple[Integers, Integers]]:
+        """The host's unknowns at the nodes of both sides of each interface; -1: none."""
+        if self._map is None:
+            return [(pair.equations1, pair.equations2) for pair in self._pairs]
+        column = np.append(self._map.indices, -1)[np.where(np.diff(self._map.indptr) > 0, self._map.indptr[:-1], -1)]
+        return [(column[pair.equations1], np.where(pair.equations2 < 0, -1, column[pair.equations2])) for pair in self._pairs]
 
     def first_side(self) -> Integers:
         """The host's unknowns of all nodes that have multipliers."""

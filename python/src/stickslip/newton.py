@@ -6,8 +6,9 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ._closing import Closing
 from .contact import Contact
 from .errors import Error, InvalidValue, StepRefused
 from .skin import Integers, Reals
@@ -24,7 +25,8 @@ _HALVINGS, _DECREASE = 10, 1e-4
 
 
 def newton(contact: Contact, residual: Callable[[Reals], ArrayLike], tangent: Callable[[Reals], Any], x: Reals, *,
-           fixed: ArrayLike = (), values: ArrayLike = 0.0, search: bool = False, most: int = 25, solve: Solver | None = None) -> int:
+           fixed: ArrayLike = (), values: ArrayLike = 0.0, search: bool = False, closing: bool = False, most: int = 25,
+           solve: Solver | None = None) -> int:
     """Solves one step in place, and gives the number of iterations.
 
     Raises :class:`stickslip.Error` where that fails: :class:`stickslip.StepRefused`, or what the library has refused. Then x is as it was.
@@ -35,16 +37,24 @@ def newton(contact: Contact, residual: Callable[[Reals], ArrayLike], tangent: Ca
     x : all unknowns, as :meth:`Contact.start` gives them
     fixed, values : which of the host's unknowns are prescribed, and what they become. They move along with the first iterate.
     search : False: full steps, which find the states of nodes fastest. True: each is halved until the residual decreases.
-    most : how many iterations it may take
+    closing : True: steps are cut where surfaces meet, as they are anyhow where a body that nothing holds touches nothing yet
+    most : how many iterations it may take; twice as many where steps are cut
     solve : ``solve(A, b)`` of a csr_matrix A that is not symmetric and has zeros on its diagonal; without it SuperLU of scipy
     """
+    return solved(contact, residual, tangent, x, fixed=fixed, values=values, search=search, closing=closing, most=most, solve=solve)[0]
+
+
+def solved(contact: Contact, residual: Callable[[Reals], ArrayLike], tangent: Callable[[Reals], Any], x: Reals, *, fixed: ArrayLike,
+           values: ArrayLike, search: bool, closing: bool, most: int, solve: Solver | None) -> tuple[int, bool]:
+    """The same, and whether steps were cut where surfaces met: nothing to extrapolate from."""
     run = _Run(contact, residual, tangent, np.asarray(fixed, dtype=np.int64).ravel(), solve or _superlu)
     before = x.copy()
     try:
-        return run.solve(x, np.asarray(values, dtype=np.float64).ravel(), search, most)
+        iterations = run.solve(x, np.asarray(values, dtype=np.float64).ravel(), search, closing, most)
     except Error:
         x[:] = before
         raise
+    return iterations, run.closing.cut
 
 
 def _superlu(A: scipy.sparse.csr_matrix, b: Reals) -> Reals:
@@ -69,7 +79,6 @@ class _Run:
         self.fixed = fixed
         if contact.condensed and not self.free[contact.first_side()].all():
             raise InvalidValue("fixed: a node of the first side, whose rows a condensed contact needs")
-        self.bodies: NDArray[np.int32] | None = None
         self.largest: Reals | float = 0.0
 
     def evaluate(self, x: Reals) -> tuple[Reals, Reals]:
@@ -86,10 +95,6 @@ class _Run:
 
     def forces_balance(self, x: Reals, r: Reals, own: Reals, K: Any) -> bool:
         """Whether the forces on every body balance, beside its reactions and contact forces. Bodies are what the host's matrix joins."""
-        from scipy.sparse.csgraph import connected_components
-
-        if self.bodies is None:
-            self.bodies = connected_components(K, directed=False)[1]
         free, bodies = self.free[: self.n], self.bodies
 
         def norms(vector: Reals) -> Reals:
@@ -102,26 +107,31 @@ class _Run:
         rounding = norms(abs(K) @ np.abs(x[: self.n]))
         return bool((norms(np.where(free, total, 0.0)) <= np.maximum(_FORCES * self.largest, _ROUNDING * rounding)).all())
 
-    def solve(self, x: Reals, values: Reals, search: bool, most: int) -> int:
+    def solve(self, x: Reals, values: Reals, search: bool, closing: bool, most: int) -> int:
         """Iterates x."""
         import scipy.sparse
+        from scipy.sparse.csgraph import connected_components
 
         r, own = self.evaluate(x)
         K = scipy.sparse.csr_matrix(self.host_tangent(x[: self.n]))
-        for iteration in range(most + 1):
+        self.bodies: Integers = connected_components(K, directed=False)[1]
+        self.closing = Closing(self.contact, self.bodies, self.fixed)
+        self.closing.begin(x, closing)
+        for iteration in range((2 if self.closing.active else 1) * most + 1):
             step = np.zeros(self.contact.size)
             step[self.fixed] = values - x[self.fixed]
-            if not step.any() and self.forces_balance(x, r, own, K) and self.contact.balanced(x):
+            if not step.any() and self.closing.settled and self.forces_balance(x, r, own, K) and self.contact.balanced(x):
                 return iteration
             if iteration:  # not before: where forces balance, the matrix of the last iterate says how they are rounded
                 K = scipy.sparse.csr_matrix(self.host_tangent(x[: self.n]))
-            A = self.contact.tangent(x, K)
+            A = self.closing.shifted(self.contact.tangent(x, K), x, float(np.linalg.norm(r[self.free])))
             rows = A[self.free]
             step[self.free] = -self.solver(rows[:, self.free], r[self.free] + rows @ step)
             if not np.isfinite(step).all():
                 raise StepRefused("the solution of Newton's matrix is NaN or infinite")
+            step = self.closing.shortened(x, step)
             r, own = self.shortened(x, step, r) if search and not step[self.fixed].any() else self.moved(x, step, 1.0)
-        raise StepRefused(f"Newton's method has not converged in {most} iterations")
+        raise StepRefused(f"Newton's method has not converged in {iteration} iterations")
 
     def moved(self, x: Reals, step: Reals, part: float) -> tuple[Reals, Reals]:
         """Takes a part of a step."""

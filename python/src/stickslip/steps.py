@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from .contact import Contact
 from .errors import Error, StepRefused
-from .newton import Solver, newton
+from .newton import Solver, solved
 from .results import States
 from .skin import Reals
 
@@ -47,9 +47,9 @@ def steps(contact: Contact, residual: Callable[[Reals, float], ArrayLike], tange
           progress: bool = False) -> Iterator[Step]:
     """Solves step after step and gives each once it is committed: ``for step in stickslip.steps(...)``.
 
-    A step is tried from an extrapolation of the last two; from where it begins; from there with a line search; from there in two
-    phases, with the normals of its start first. Then it is cut into halves. Refusals, NaN and refused commits are failed attempts. A host
-    that raises :class:`stickslip.StepRefused` says so of its own.
+    A step is tried from an extrapolation of the last two; from where it begins; from there with a line search; in two phases, with the
+    normals of its start first; with steps that are cut where surfaces meet. Then it is cut into halves. Refusals, NaN and refused
+    commits are failed attempts. A host that raises :class:`stickslip.StepRefused` says so of its own.
 
     Parameters
     ----------
@@ -85,6 +85,8 @@ class _Steps:
         self.start, self.predictor, self.fixed, self.prescribed, self.options = start, predictor, fixed, prescribed, options
         #: The rate of all unknowns in the last step.
         self.rate: Reals | None = None
+        #: Whether the last solution had steps that were cut where surfaces met.
+        self.cut = False
 
     def advance(self, x: Reals, begin: float, end: float, shortest: float, accepted: Callable[[Reals, float], None] | None,
                 progress: bool) -> Step:
@@ -103,7 +105,7 @@ class _Steps:
                 if progress:
                     print(f"time {begin:g}: cut back to {ends[-1]:g}: {error}", flush=True)
                 continue
-            self.rate = (x - before) / (ends[-1] - begin)
+            self.rate = None if self.cut else (x - before) / (ends[-1] - begin)  # how a gap closes is no rate
             iterations, begin = iterations + count, ends.pop()
             if accepted is not None:
                 accepted(x, begin)
@@ -114,15 +116,16 @@ class _Steps:
         started = x.copy()
         if self.start is not None:
             self.start(started, begin, end)
-        attempts = [(self._full, started), (self._searched, started)]
+        attempts: list[tuple[Reals, dict[str, bool]]] = [(started, {}), (started, {"search": True})]
         if self.contact.use_normals("current"):
-            attempts.append((self._in_two_phases, started))
+            attempts.append((started, {"phases": True}))
+        attempts.append((started, {"closing": True}))
         if self.predictor and self.rate is not None:
-            attempts.insert(0, (self._full, x + (end - begin) * self.rate))
-        for attempt, first in attempts:
+            attempts.insert(0, (x + (end - begin) * self.rate, {}))
+        for first, how in attempts:
             x[:] = first
             try:
-                iterations = attempt(x, end)
+                iterations = self._attempt(x, end, **how)
                 break
             except Error as error:
                 failed = error
@@ -133,17 +136,15 @@ class _Steps:
         self.contact.commit(x)
         return iterations, states
 
-    def _full(self, x: Reals, time: float, search: bool = False) -> int:
-        return newton(self.contact, lambda u: self.residual(u, time), lambda u: self.tangent(u, time), x, fixed=self.fixed,
-                      values=self.prescribed(time), search=search, **self.options)
-
-    def _searched(self, x: Reals, time: float) -> int:
-        return self._full(x, time, search=True)
-
-    def _in_two_phases(self, x: Reals, time: float) -> int:
-        self.contact.use_normals("committed")
-        try:
-            first = self._full(x, time)
-        finally:
-            self.contact.use_normals("current")
-        return first + self._full(x, time)
+    def _attempt(self, x: Reals, time: float, search: bool = False, closing: bool = False, phases: bool = False) -> int:
+        first = 0
+        if phases:
+            self.contact.use_normals("committed")
+            try:
+                first = self._attempt(x, time)
+            finally:
+                self.contact.use_normals("current")
+        iterations, self.cut = solved(
+            self.contact, lambda u: self.residual(u, time), lambda u: self.tangent(u, time), x, fixed=self.fixed,
+            values=self.prescribed(time), search=search, closing=closing, **self.options)
+        return first + iterations
