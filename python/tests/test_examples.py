@@ -23,12 +23,12 @@ SLIPPING = 0.99
 ITERATIONS = [4, 1, 1, 1, 1, 1, 1, 1, 1, 1, 2, 1, 1, 2, 1, 2, 2, 2, 2, 2]
 
 
-def run(name, folder, *needed):
+def run(name, folder, *needed, before=()):
     for package in (*needed, "matplotlib"):
         if importlib.util.find_spec(package) is None:
             pytest.skip(f"{name} needs {package}, which is not installed")
     picture = folder / "picture.png"
-    printed = call(name, str(picture))
+    printed = call(name, *before, str(picture))
     assert picture.stat().st_size > 10_000
     return printed
 
@@ -73,12 +73,14 @@ def test_the_program_by_hand_of_the_readme_runs():
     np.testing.assert_allclose(-space["force1"].sum(axis=0), [0, 5 * 0.8], atol=1e-12)
 
 
-@pytest.mark.parametrize("cells, most", [(6, 0.015), (12, 0.004)])
-def test_a_shaft_has_the_pressure_of_lames_formula(cells, most):
-    if importlib.util.find_spec("skfem") is None:
-        pytest.skip("scikit_fem_shaft.py needs skfem, which is not installed")
-    least, largest = map(float, call("scikit_fem_shaft.py", str(cells)).split()[-2:])
-    assert 1 - most < least <= largest < 1
+# Of Lame's pressure, by cells of 0.15: 0.9965 to 0.9977 are found. An overlap of 0.003 makes 0.001 of it, the facets the rest.
+LAME = 0.004
+
+
+@pytest.mark.parametrize("name, package", [("scikit_fem_shaft.py", "skfem"), ("ngsolve_shaft.py", "ngsolve")])
+def test_a_shaft_has_the_pressure_of_lames_formula(name, package, tmp_path):
+    least, largest = map(float, run(name, tmp_path, package, before=("0.15",)).split()[-2:])
+    assert 1 - LAME < least <= largest < 1
 
 
 # Iterations, nodes that stick and nodes that slip in each step, of the driver on the same meshes. hosts/check.py asks the driver
