@@ -14,6 +14,8 @@ DIFFERENCES = 1e-6
 ROUNDING = 1e-12
 # Two linear solvers' rounding, over the displacements.
 SAME = 1e-11
+# Rounding of a linear solver, of a constant pressure.
+PATCH = 1e-11
 GRIP = (2e-3, 8e-4, -5e-3)
 
 
@@ -162,6 +164,21 @@ def test_a_rigid_table_moves_by_its_coordinates(blocks):
         stickslip.Contact(blocks.X).add(blocks.facets[0], moving, **blocks.options)
 
 
+def test_an_analytic_plane_is_the_same_table(blocks):
+    frame = stickslip.Surface([(0.5, 0.5, HEIGHT), (0.5, 0.5, HEIGHT + 1), (1.5, 0.5, HEIGHT), (0.5, 1.5, HEIGHT)], [])
+    table = stickslip.Surface([(-1, -1, HEIGHT), (2, -1, HEIGHT), (2, 2, HEIGHT), (-1, 2, HEIGHT)], [[0, 1, 2, 3]])
+    of_plane = stickslip.Contact(blocks.X).add(blocks.facets[0], frame, mortar_side="analytic", shape="plane", **blocks.options)
+    of_facets = stickslip.Contact(blocks.X).add(blocks.facets[0], table, **blocks.options)
+    x = of_facets.start()
+    x[2 : blocks.X.size : 3] -= 1e-3  # flat: on a facet that leans the two project in different ways
+    x[blocks.X.size :] -= 1 + np.arange(48) / 48
+    residuals = []
+    for contact in (of_plane, of_facets):
+        residuals.append(np.zeros(contact.size))
+        contact.add_residual(x, residuals[-1])
+    np.testing.assert_allclose(*residuals, atol=ROUNDING)
+
+
 def test_a_crease_has_multipliers_a_face():
     X, cells = box((0, 0, 0), (1, 1, 1), (2, 2, 2))
     both = stickslip.skin(cells, X, lambda x: (x[2] == 0) | (x[0] == 0))
@@ -217,7 +234,7 @@ def test_three_bodies_and_two_interfaces(condensed):
     x = contact.start()
     assert stickslip.newton(contact, lambda u: K @ u, lambda u: K, x, fixed=fixed, values=values) == 1
     for states, count in zip(contact.states(x), (9, 16)):
-        np.testing.assert_allclose(states.pressure, YOUNG * 0.01 / 1.5, rtol=1e-11)
+        np.testing.assert_allclose(states.pressure, YOUNG * 0.01 / 1.5, rtol=PATCH)
         assert str(states) == f"0 gap {count} stick 0 slip"
     contact.commit(x)
 
@@ -227,6 +244,8 @@ def test_what_is_wrong_is_told(blocks):
     x = contact.start()
     assert "16 are covered in full" in contact.report()
     assert f"{blocks.X.size} unknowns of the host, 48 multipliers behind them; [<Interface: 9 facets of 16 nodes on 16 facets" in repr(contact)
+    twice = blocks.contact().add(*blocks.facets, **blocks.options)
+    assert f"Nodes {np.unique(blocks.facets[0]).tolist()} have multipliers in several interfaces" in twice.report()
     with pytest.raises(stickslip.Error, match=r"^x: shape \(3,\)"):
         contact.balanced(np.zeros(3))
     with pytest.raises(stickslip.Error, match="^add: all interfaces"):

@@ -54,7 +54,8 @@ class Closing:
 
     def begin(self, x: Reals, force: bool) -> None:
         """Settles whether this step needs it."""
-        self.active = force or self.loose(x)
+        # Where the host has left unknowns out, its matrix does not tell what holds a body.
+        self.active = force or (not (self.contact.dofs < 0).any() and self.loose(x))
         self.whole = 0 if self.active else _SETTLED
 
     def shifted(self, A: scipy.sparse.csr_matrix, x: Reals, norm: float) -> scipy.sparse.csr_matrix:

@@ -254,7 +254,11 @@ class Contact:
     def report(self) -> str:
         """Which nodes are covered in the first configuration, and what looks wrong, in sentences."""
         u = np.zeros(self.X.shape)
-        return "\n".join(pair.face.report(*pair.positions(u)).text for pair in self._pairs)
+        told = [pair.face.report(*pair.positions(u)).text for pair in self._pairs]
+        nodes, claims = np.unique(np.concatenate([np.unique(pair.nodes1) for pair in self._pairs]), return_counts=True)
+        if (claims > 1).any():
+            told.append(f"Nodes {nodes[claims > 1].tolist()} have multipliers in several interfaces: docs/host_edges.md says what that means.")
+        return "\n".join(told)
 
     def _displacements(self, x: Reals) -> Reals:
         x = given("x", x, (self.size,))
