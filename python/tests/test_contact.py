@@ -239,9 +239,29 @@ def test_three_bodies_and_two_interfaces(condensed):
     contact.commit(x)
 
 
+@pytest.mark.parametrize("mids", [False, True])
+def test_the_surface_is_drawn(blocks, mids, tmp_path):
+    meshio = pytest.importorskip("meshio", reason="the surface is a mesh of meshio, which is not installed")
+    facets, X = quad8(blocks.X, blocks.facets[0]) if mids else (blocks.facets[0], blocks.X)
+    contact = stickslip.Contact(X).add(facets, blocks.facets[1], **blocks.options)
+    x = contact.start()
+    x[2 : X.size : 3] += 1e-3
+    (states,) = contact.states(x)
+    contact.surface(x, states).write(tmp_path / "contact.vtu")
+    mesh = meshio.read(tmp_path / "contact.vtu")
+    np.testing.assert_allclose(mesh.points, X[np.unique(facets)] + [0, 0, 1e-3])
+    assert sum(len(block.data) for block in mesh.cells) == 9 and mesh.cells[0].type == ("quad8" if mids else "quad")
+    np.testing.assert_array_equal(mesh.point_data["traction"], states.traction)
+    np.testing.assert_array_equal(mesh.point_data["state"], states.state)
+
+
 def test_what_is_wrong_is_told(blocks):
     contact = blocks.contact()
     x = contact.start()
+    with pytest.raises(stickslip.Error, match="^start: there is no interface"):
+        stickslip.Contact(blocks.X).start()
+    with pytest.raises(stickslip.Error, match=r"^r: shape"):
+        contact.add_residual(x, np.zeros(blocks.X.size))
     assert "16 are covered in full" in contact.report()
     assert f"{blocks.X.size} unknowns of the host, 48 multipliers behind them; [<Interface: 9 facets of 16 nodes on 16 facets" in repr(contact)
     twice = blocks.contact().add(*blocks.facets, **blocks.options)

@@ -12,6 +12,7 @@ from .errors import InvalidSize, InvalidValue
 from .interface import Interface
 from .meshes import split_creases
 from .plan import CondensedPlan, Plan
+from .results import States
 from .skin import Facets, Integers, Reals
 from .surface import Surface
 
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 
 # Corners of a facet by the number of its nodes, in the plane and in space.
 _CORNERS = {2: {2: 2, 3: 2}, 3: {3: 3, 4: 4, 6: 3, 8: 4, 9: 4}}
+
+_MESHIO = {(2, 2): "line", (2, 3): "line3", (3, 3): "triangle", (3, 4): "quad", (3, 6): "triangle6", (3, 8): "quad8", (3, 9): "quad9"}
 
 
 def _rows(name: str, facets: Facets, dimension: int) -> list[Integers]:
@@ -44,6 +47,7 @@ class Pair:
         if crease is not None:
             local, originals = split_creases(X[self.nodes1], local, crease)
             self.nodes1 = self.nodes1[originals]
+        self.facets1 = local
         self.X1, self.equations1 = X[self.nodes1], numbers[self.nodes1]
         if isinstance(sides[1], Surface):
             self.mortar, self.nodes2 = sides[1], None
@@ -94,6 +98,20 @@ class Pair:
         """Of both sides, with the displacements of all nodes."""
         x1 = self.X1 + u[self.nodes1]
         return x1, self.mortar.coordinates + (0.0 if self.nodes2 is None else u[self.nodes2])
+
+    def mesh(self, u: Reals, states: States) -> Any:
+        """The first side of meshio's."""
+        import meshio
+
+        cells = [(_MESHIO[self.X1.shape[1], len(row)], row[None]) for row in self.facets1]
+        x1, _ = self.positions(u)
+        flat = {name: np.asarray(getattr(states, name)) for name in ("state", "pressure", "coverage", "share")}
+        vectors = {name: self._in_space(getattr(states, name)) for name in ("normal", "traction", "slip")}
+        return meshio.Mesh(self._in_space(x1), cells, point_data={**flat, **vectors})
+
+    @staticmethod
+    def _in_space(vectors: Reals) -> Reals:
+        return np.pad(vectors, ((0, 0), (0, 3 - vectors.shape[1])))
 
     def multipliers(self, values: Reals) -> Reals:
         """The array of the library from the values of those that there are."""

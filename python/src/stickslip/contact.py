@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _arrays
-from ._arrays import given
+from ._arrays import given, output
 from ._pair import Pair
 from .errors import InvalidSize, InvalidValue
 from .interface import Interface
@@ -116,6 +116,8 @@ class Contact:
 
     def start(self, u: ArrayLike | None = None) -> Reals:
         """A vector to start the first step with: the host's unknowns ``u``, without it 0, and multipliers that hold what touches."""
+        if not self._pairs:
+            raise InvalidValue("start: there is no interface; add one")
         x = np.zeros(self.size)
         if u is not None:
             x[: self.n_host] = given("u", u, (self.n_host,))
@@ -126,6 +128,7 @@ class Contact:
 
     def add_residual(self, x: Reals, r: Reals) -> None:
         """Adds the forces of contact and the rows of multipliers to r, which has the host's internal minus external forces."""
+        output("r", r, (self.size,))
         self._at = None
         inner, rows = np.zeros(self._n_inner), []
         own = r.copy()
@@ -188,6 +191,10 @@ class Contact:
     def states(self, x: Reals) -> list[States]:
         """What :meth:`stickslip.Interface.states` says of each interface. Ask before the commit."""
         return [pair.face.states(*point) for pair, point in self._points(x)]
+
+    def surface(self, x: Reals, states: States, interface: int = 0) -> Any:
+        """The first side of an interface as x has it, a mesh of meshio with what ``states`` say of its nodes: ``.write("contact.vtu")``."""
+        return self._pairs[interface].mesh(self._displacements(x), states)
 
     def commit(self, x: Reals) -> None:
         """Accepts a converged step: all interfaces do, or none."""
