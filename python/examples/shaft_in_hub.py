@@ -38,7 +38,7 @@ def solve(make_ring, size):
     contact = stickslip.Contact(X, S).add(face1, face2, held=symmetry, modulus=YOUNG, mu=0.0)
     (step,) = stickslip.steps(contact, lambda u, time: K @ u, lambda u, time: K, [1.0], progress=True,
                               fixed=np.concatenate([fixed1, fixed2 + K1.shape[0]]))
-    corners = step.states[0].coverage > 0  # mid nodes have no multiplier
+    corners = step.states[0].bearing  # mid nodes have no multiplier
     return np.arctan2(*X[np.unique(face1)[corners]].T[::-1]), step.states[0].pressure[corners]
 
 

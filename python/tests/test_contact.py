@@ -78,7 +78,8 @@ def test_mid_nodes_have_no_multipliers_and_share_the_pressure(blocks):
     np.testing.assert_allclose(force[on_edge], [[0, 0, 5 * edge**2 / 3]], atol=ROUNDING)
     check_derivative(contact, pressed(contact, X))
     states = contact.states(x)[0]
-    assert str(states) == f"{len(states.state) - 16} gap 16 stick 0 slip"
+    assert str(states) == "0 gap 16 stick 0 slip" and repr(states) == "<States of 16 nodes: 0 gap 16 stick 0 slip>"
+    assert np.isin(np.unique(facets1)[states.bearing], facets1[:, :4]).all()
 
 
 def test_with_sub_multipliers_mid_nodes_have_them(blocks):

@@ -45,7 +45,7 @@ class Closing:
         from scipy.sparse.csgraph import connected_components
 
         ground = self.n_bodies
-        touching = [states.count(State.GAP) < len(states.state) for states in self.contact.states(x)]
+        touching = [states.count(State.GAP) < states.bearing.sum() for states in self.contact.states(x)]
         edges = [joint for joint, touches in zip(self.joints, touching) if touches] + [(int(body), ground) for body in self.held]
         rows, columns = zip(*edges) if edges else ((), ())
         graph = scipy.sparse.coo_matrix((np.ones(len(edges)), (rows, columns)), shape=(ground + 1, ground + 1))

@@ -45,6 +45,7 @@ class Inspection:
 
     n1: int
     _shape1: tuple[int, ...]
+    _bearing: Array
     _told: str
     _call: Callable[..., None]
     _point: Callable[..., tuple[Any, ...]]
@@ -67,7 +68,7 @@ class Inspection:
         for member, address in kept.items():
             setattr(out, member, address)
         self._call("states", *self._point(x1, x2, lam, sums), out)
-        states = States(**arrays)
+        states = States(**arrays, bearing=self._bearing)
         self._told = f"last seen: {states}"
         return states
 

@@ -23,7 +23,7 @@ class State(IntEnum):
 
 @dataclass(eq=False)
 class States:
-    """Of each non-mortar node, (n1,) and (n1, d); nodes without a multiplier are in gap."""
+    """Of each non-mortar node, (n1,) and (n1, d). Nodes that do not bear, as mid nodes, are in gap and carry nothing."""
 
     #: A :class:`State`.
     state: NDArray[np.int32]
@@ -44,6 +44,8 @@ class States:
     augmentation: Reals
     #: Which part of what is covered is closed.
     share: Reals
+    #: Whether it has a multiplier.
+    bearing: NDArray[np.bool_]
 
     @property
     def pressure(self) -> Reals:
@@ -52,14 +54,14 @@ class States:
         return out
 
     def count(self, state: State) -> int:
-        """How many nodes are in a state."""
-        return int((self.state == state).sum())
+        """How many of the nodes that have a multiplier are in a state."""
+        return int((self.state[self.bearing] == state).sum())
 
     def __str__(self) -> str:
         return " ".join(f"{self.count(state)} {state.name.lower()}" for state in State)
 
     def __repr__(self) -> str:
-        return f"<States of {len(self.state)} nodes: {self}>"
+        return f"<States of {self.bearing.sum()} nodes: {self}>"
 
 
 @dataclass
