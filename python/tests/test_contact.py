@@ -259,6 +259,8 @@ def test_the_surface_is_drawn(blocks, mids, tmp_path):
 def test_what_is_wrong_is_told(blocks):
     contact = blocks.contact()
     x = contact.start()
+    with pytest.raises(stickslip.errors.Unsupported, match="standard multipliers"):
+        stickslip.Contact(blocks.X, condensed=True).add(*blocks.facets, method="paper", **blocks.options).start()
     with pytest.raises(stickslip.Error, match="^start: there is no interface"):
         stickslip.Contact(blocks.X).start()
     with pytest.raises(stickslip.Error, match=r"^r: shape"):

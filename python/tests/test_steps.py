@@ -95,6 +95,11 @@ def test_no_step_is_short_enough(blocks):
     assert contact.balanced(x)
 
 
+def test_a_mistake_is_no_failed_step(blocks):
+    with pytest.raises(stickslip.errors.InvalidSize, match="^residual: gives 3 entries"):
+        run(blocks, blocks.contact(), residual=lambda u, time: u[:3])
+
+
 def test_a_commit_that_is_refused_is_a_failed_step(blocks, monkeypatch):
     contact, refused = blocks.contact(), []
     commit = contact.commit

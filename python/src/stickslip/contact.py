@@ -121,7 +121,10 @@ class Contact:
         x = np.zeros(self.size)
         if u is not None:
             x[: self.n_host] = given("u", u, (self.n_host,))
-        if not self.condensed:
+        if self.condensed:
+            for pair, (x1, x2, _) in self._evaluated(x):
+                pair.system.multipliers(x1, x2, np.zeros(x1.shape))  # refuses here what has no condensed form, not in a step
+        else:
             x[self.n_host :] = np.concatenate([pair.face.initial_multipliers()[pair.mask] for pair in self._pairs])
         self._start, self._at = x.copy(), None
         return x

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ._closing import Closing
 from .contact import Contact
-from .errors import Error, InvalidValue, StepRefused
+from .errors import Error, InvalidSize, InvalidValue, StepRefused
 from .skin import Integers, Reals
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ class _Run:
         """The residual of all unknowns, and the host's own part of it."""
         own = np.asarray(self.host_residual(x[: self.n]), dtype=np.float64).ravel()
         if own.shape != (self.n,):
-            raise InvalidValue(f"residual: gives {own.size} entries, {self.n} are needed")
+            raise InvalidSize(f"residual: gives {own.size} entries, {self.n} are needed")
         r = np.zeros(self.contact.size)
         r[: self.n] = own
         self.contact.add_residual(x, r)

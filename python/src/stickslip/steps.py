@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .contact import Contact
-from .errors import Error, StepRefused
+from .errors import Error, InvalidSize, StepRefused, WrongType
 from .newton import Solver, solved
 from .results import States
 from .skin import Reals
@@ -96,6 +96,8 @@ class _Steps:
             before = x.copy()
             try:
                 count, states = self._tried(x, begin, ends[-1])
+            except (InvalidSize, WrongType):
+                raise
             except Error as error:
                 x[:] = before
                 if not 0.5 * (ends[-1] - begin) >= shortest:
@@ -127,6 +129,8 @@ class _Steps:
             try:
                 iterations = self._attempt(x, end, **how)
                 break
+            except (InvalidSize, WrongType):  # no shorter step helps
+                raise
             except Error as error:
                 failed = error
         else:
