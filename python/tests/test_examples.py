@@ -11,12 +11,15 @@ from types import ModuleType
 import numpy as np
 import pytest
 import stickslip
+from bodies import Blocks
 
 EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
 # The driver's probes of plane_block.yaml.
 TOPLEFT = 0.04851349276175426, -0.29031535607113274
 TOPRIGHT = 0.262352934489316, -0.4060503680352719
 DRIVER = 1e-12
+# Rounding of two linear solvers, of the largest multiplier.
+SOLVERS = 1e-11
 # Of mu times the pressure, where all nodes slip: the block bulges, so that some of it is across. 0.994 is found.
 SLIPPING = 0.99
 # The driver's Newton iterations with -steps_predictor false -snes_linesearch_type basic.
@@ -68,8 +71,18 @@ def test_the_first_program_of_the_readme_runs(monkeypatch, capsys):
     assert SLIPPING < shear / (-0.3 * pressure) < 1
 
 
-def test_the_program_by_hand_of_the_readme_runs():
+def test_the_solver_of_the_readme_solves():
+    if importlib.util.find_spec("petsc4py") is None:
+        pytest.skip("the solver of the README needs petsc4py, which is not installed (Debian: python3-petsc4py)")
     exec(compile(programs()[1], "README.md", "exec"), space := {})
+    made = Blocks()
+    (x, iterations), (y, others) = (made.solve(made.contact(), (2e-3, 8e-4, -5e-3), solve=solve) for solve in (None, space["mumps"]))
+    assert iterations == others
+    np.testing.assert_allclose(x, y, atol=SOLVERS * np.abs(x).max())
+
+
+def test_the_program_by_hand_of_the_readme_runs():
+    exec(compile(programs()[2], "README.md", "exec"), space := {})
     np.testing.assert_allclose(-space["force1"].sum(axis=0), [0, 5 * 0.8], atol=1e-12)
 
 

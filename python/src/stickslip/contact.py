@@ -80,11 +80,11 @@ class Contact:
 
         Parameters
         ----------
-        facets1, facets2 : node numbers as :func:`stickslip.skin` gives them. The first side has the multipliers: the smaller one, the softer
-            one, the finer one. The second may be a :class:`stickslip.Surface` without unknowns, rigid or analytic; what is written
-            to its ``coordinates`` moves it.
-        held : dofs of nodes of the first side that are prescribed on *both* sides, as on a plane of symmetry: no multiplier there. Where dofs
-            is a matrix, rows of it.
+        facets1, facets2 : node numbers as :func:`stickslip.skin` gives them. The first side has the multipliers: the smaller one, the
+            softer one, the finer one. The second may be a :class:`stickslip.Surface` without unknowns, rigid or analytic; what is
+            written to its ``coordinates`` moves it.
+        held : dofs of nodes of the first side that are prescribed on *both* sides, as on a plane of symmetry: no multiplier there.
+            Where dofs is a matrix, rows of it.
         crease : nodes on edges of the first side that are sharper than this angle get multipliers a face [rad]: docs/host_edges.md
         **options : :class:`stickslip.Options`, as of :class:`stickslip.Interface`
         """
@@ -258,7 +258,8 @@ class Contact:
 
     def first_side(self) -> Integers:
         """The host's unknowns of all nodes that have multipliers."""
-        numbers: Integers = np.concatenate([pair.equations1[pair.mask.reshape(len(pair.mask), -1).any(axis=1)].ravel() for pair in self._pairs])
+        bearing = [pair.mask.reshape(len(pair.mask), -1).any(axis=1) for pair in self._pairs]
+        numbers: Integers = np.concatenate([pair.equations1[nodes].ravel() for pair, nodes in zip(self._pairs, bearing)])
         return numbers[numbers >= 0]
 
     def report(self) -> str:
@@ -267,7 +268,7 @@ class Contact:
         told = [pair.face.report(*pair.positions(u)).text for pair in self._pairs]
         nodes, claims = np.unique(np.concatenate([np.unique(pair.nodes1) for pair in self._pairs]), return_counts=True)
         if (claims > 1).any():
-            told.append(f"Nodes {nodes[claims > 1].tolist()} have multipliers in several interfaces: docs/host_edges.md says what that means.")
+            told.append(f"Nodes {nodes[claims > 1].tolist()} have multipliers in several interfaces: see docs/host_edges.md.")
         return "\n".join(told)
 
     def _displacements(self, x: Reals) -> Reals:
