@@ -10,6 +10,8 @@ from numpy_blocks import block, box
 # Central differences with this step: truncation and rounding both are below 1e-6 of the largest entry.
 STEP = 1e-6
 DIFFERENCES = 1e-6
+# Condensed multipliers change fast with displacements, and truncation with the square of the step.
+CONDENSED_STEP = 1e-7
 # Sums of the same products in another order.
 ROUNDING = 1e-12
 # Two linear solvers' rounding, over the displacements.
@@ -103,6 +105,23 @@ def test_condensed_is_the_same_answer_with_the_same_iterations(blocks):
         few.balanced(y + 1.0)
     with pytest.raises(stickslip.Error, match="^K: the host's matrix"):
         few.tangent(y)
+
+
+def test_the_condensed_tangent_is_the_derivative(blocks):
+    contact = blocks.contact(condensed=True)
+    contact.start()
+    x = pressed(contact, blocks.X)
+
+    def residual(x):
+        r = blocks.K @ x
+        contact.add_residual(x, r)
+        return r
+
+    residual(x)
+    tangent = contact.tangent(x, blocks.K)
+    for direction in np.random.default_rng(3).standard_normal((3, len(x))):
+        difference = (residual(x + CONDENSED_STEP * direction) - residual(x - CONDENSED_STEP * direction)) / (2 * CONDENSED_STEP)
+        assert np.abs(tangent @ direction - difference).max() < DIFFERENCES * np.abs(tangent @ direction).max()
 
 
 def test_a_matrix_of_dofs_is_a_change_of_unknowns(blocks):

@@ -49,16 +49,22 @@ def test_a_solution_is_in_balance_and_stays(blocks):
 
 
 def test_bodies_are_judged_one_by_one(blocks):
-    # A third body of one unknown, with forces of 1e13 that balance: beside them all that is wrong with the others would be nothing.
+    # A third body of two unknowns, with forces of 1e13: beside them all that is wrong with the others would be nothing.
     n = blocks.X.size
     K = scipy.sparse.block_diag([blocks.K, [[1e15, -1e15], [-1e15, 1e15]]], "csr")
     plain, heavy = blocks.contact(), blocks.contact(size=n + 2)
     x, iterations = blocks.solve(plain, GRIP)
+    fixed, values = np.append(blocks.fixed.ravel(), [n, n + 1]), np.append(blocks.values(GRIP).ravel(), [0.01, 0.0])
+
+    def solve(y):
+        return stickslip.newton(heavy, lambda u: K @ u, lambda u: K, y, fixed=fixed, values=values)
+
     y = heavy.start()
-    values = np.append(blocks.values(GRIP).ravel(), [0.01, 0.0])
-    more = stickslip.newton(heavy, lambda u: K @ u, lambda u: K, y, fixed=np.append(blocks.fixed.ravel(), [n, n + 1]), values=values)
-    assert more == iterations
+    assert solve(y) == iterations
     np.testing.assert_allclose(y[:n], x[:n], atol=SAME * np.abs(x[:n]).max())
+    inside = np.setdiff1d(np.arange(n), np.concatenate([fixed, *(blocks.dofs[facets].ravel() for facets in blocks.facets)]))
+    y[inside[0]] += 1e-6  # contact does not know of it
+    assert heavy.balanced(y) and solve(y) == 1
 
 
 def test_a_line_search_solves_what_full_steps_do_not(blocks):

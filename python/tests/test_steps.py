@@ -114,6 +114,18 @@ def test_a_commit_that_is_refused_is_a_failed_step(blocks, monkeypatch):
     assert [step.cuts for step in run(blocks, contact, times=(1.0,))] == [1]
 
 
+def test_a_step_that_must_not_count_is_cut_back(blocks, monkeypatch):
+    contact, asked = blocks.contact(), []
+
+    def check(x):
+        asked.append(contact.balanced(x))
+        if len(asked) == 1:
+            raise stickslip.StepRefused("bodies overlap")
+
+    monkeypatch.setattr(contact, "check", check)
+    assert [step.cuts for step in run(blocks, contact, times=(1.0,))] == [1] and asked == [True] * 3
+
+
 def test_attempts_follow_each_other(blocks, monkeypatch):
     """Predictor, full steps, line search, two phases, closing: each once where the one before has failed."""
     asked, normals, contact = [], ["current"], blocks.contact()
