@@ -48,6 +48,17 @@ def test_a_solution_is_in_balance_and_stays(blocks):
     assert np.abs(r[blocks.top].sum(axis=0) + r[blocks.bottom].sum(axis=0)).max() < BALANCE * np.abs(r[blocks.top].sum(axis=0)).max()
 
 
+def test_what_is_prescribed_is_reached_in_one_iterate():
+    # 0.03 + (0.29 - 0.03) is not 0.29, and no iteration is spent on the difference.
+    patch = Blocks(poisson=0.0, margin=0.0)
+    contact = patch.contact()
+    x, below = contact.start(), np.tile([0.03, 0.0, 0.0], (len(patch.X), 1))
+    x[: patch.X.size] = below.ravel()
+    values = patch.values((0.0, 0.0, -0.005)) + [0.29, 0.0, 0.0]
+    assert 0.03 + (0.29 - 0.03) != 0.29
+    assert stickslip.newton(contact, patch.residual, patch.tangent, x, fixed=patch.fixed, values=values) == 1
+
+
 def test_bodies_are_judged_one_by_one(blocks):
     # A third body of two unknowns, with forces of 1e13: beside them all that is wrong with the others would be nothing.
     n = blocks.X.size

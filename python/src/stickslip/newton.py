@@ -20,6 +20,8 @@ Solver = Callable[["scipy.sparse.csr_matrix", Reals], Reals]
 # The forces on a body balance to this part of reactions and contact forces on it, or to the rounding of its own: so many units in the
 # last place of |K| |u|.
 _FORCES, _ROUNDING = 2e-11, 16 * np.finfo(float).eps
+# What is prescribed is reached up to the rounding of a sum.
+_REACHED = 4 * np.finfo(float).eps
 # A line search halves a step so many times, and asks of a part s of a step a residual smaller by 1e-4 s.
 _HALVINGS, _DECREASE = 10, 1e-4
 
@@ -119,7 +121,8 @@ class _Run:
         self.closing.begin(x, closing)
         for iteration in range((2 if self.closing.active else 1) * most + 1):
             step = np.zeros(self.contact.size)
-            step[self.fixed] = values - x[self.fixed]
+            way = values - x[self.fixed]
+            step[self.fixed] = np.where(np.abs(way) <= _REACHED * np.abs(values), 0.0, way)
             if not step.any() and self.closing.settled and self.forces_balance(x, r, own, K) and self.contact.balanced(x):
                 return iteration
             if iteration:  # not before: where forces balance, the matrix of the last iterate says how they are rounded
