@@ -206,8 +206,8 @@ wheel:
 python-examples: wheel
 	$(SAY) "Examples in Python"
 	@$(BUILD)/python/bin/pip install -q --force-reinstall --no-deps $(BUILD)/wheels/*.whl
-	@$(BUILD)/python/bin/pip install -q cffi numpy scipy pytest matplotlib scikit-fem felupe
-	@$(BUILD)/python/bin/python -m pytest -q -rs python/tests/test_examples.py
+	@$(BUILD)/python/bin/pip install -q cffi numpy scipy pytest matplotlib scikit-fem felupe ngsolve mypy
+	@$(BUILD)/python/bin/python -m pytest -q -rs python/tests/test_examples.py python/tests/test_types.py
 
 hosts:
 	@.ci/setup hosts

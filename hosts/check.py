@@ -200,7 +200,8 @@ def main():
             there += 1
             run(arguments.cmake, "--build", own)
             two_blocks(name, [own / "two_blocks"], driver, folder)
-        for name, module, example in (("scikit-fem", "skfem", "scikit_fem_blocks.py"), ("FElupe", "felupe", "felupe_blocks.py"),
+        for name, module, example in (("numpy", "numpy", "numpy_blocks.py"), ("FEniCSx", "dolfinx", "fenicsx_blocks.py"),
+                                      ("scikit-fem", "skfem", "scikit_fem_blocks.py"), ("FElupe", "felupe", "felupe_blocks.py"),
                                       ("petsc4py", "petsc4py", "petsc4py_block.py")):
             python = python_with(module, build)
             if python is None:

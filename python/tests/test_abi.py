@@ -1,8 +1,11 @@
 """Nothing of the header is forgotten, and what is wrong is refused by name."""
 
+import dataclasses
+import inspect
 import re
 from pathlib import Path
 from types import SimpleNamespace
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -55,6 +58,8 @@ def test_every_status_has_a_class_of_its_own():
     assert len({made.__name__ for made in errors.by_status.values()}) == len(known)
     for status, made in errors.by_status.items():
         assert issubclass(made, stickslip.Error) and made.status == status
+        bases = ", ".join(base.__name__ for base in made.__bases__)
+        assert f"    class {made.__name__}({bases}): ...\n" in (SOURCES / "errors.py").read_text()  # for editors and type checkers
         assert made("why", status).status == status
     assert issubclass(errors.OutOfMemory, MemoryError) and issubclass(errors.IndexOutOfRange, IndexError)
 
@@ -68,6 +73,39 @@ def test_every_option_is_taken_by_its_name():
             made, method = options.make({name: number if name != "weak_coverage" else 0.5})
             of = made if hasattr(made, name) else method
             assert getattr(of, name) == (number if name != "weak_coverage" else 0.5)
+
+
+def test_options_are_spelt_out_with_their_words_and_defaults():
+    spelt = stickslip.Options.__annotations__
+    assert set(spelt) == {*options.members(), "basis", "method"} - {"index_base"}
+    for name, kind in spelt.items():
+        words = _library.words(options._PREFIX.get(options._SHORT.get(name, name), options._SHORT.get(name, name).upper()))
+        if name not in ("method", "no_shortcuts", "weak_coverage") and words:
+            assert set(get_args(kind)) == set(words), name
+    for function in (stickslip.Interface, stickslip.Contact.add):
+        parameters = inspect.signature(function).parameters
+        assert set(spelt) <= set(parameters)
+        assert (parameters["friction"].default, parameters["mu"].default, parameters["basis"].default) == ("coulomb", 0.0, "auto")
+
+
+@pytest.mark.parametrize("name", ["states", "equilibrium", "report", "diagnosis", "counters"])
+def test_results_have_the_names_of_the_header(name):
+    # Lists that a caller has to make room for beforehand are not given.
+    left_out = {"struct_size", "reserved", "text_capacity", "facets"} if name != "diagnosis" else \
+        {"struct_size", "state", "text_capacity", *(f"suspect_{what}" for what in ("nodes", "directions", "ratios", "causes", "capacity"))}
+    members = {member for member, _ in _library.ffi.typeof(f"struct stickslip_{name}").fields}
+    own = {"bearing"} if name == "states" else set()
+    assert {field.name for field in dataclasses.fields(getattr(stickslip, name.capitalize()))} == members - left_out | own
+
+
+def test_what_is_shown(lines):
+    assert repr(lines.interface) == "<Interface: 4 lines of 5 nodes on 3 lines of 4 nodes, coulomb, mu 0.3; no states yet>"
+    states = lines.interface.states(*lines.pressed())
+    assert str(states) == f"{(states.state == stickslip.State.GAP).sum()} gap 5 stick 0 slip" and repr(states) in repr([states])
+    assert "last seen: 0 gap 5 stick 0 slip" in repr(lines.interface)
+    lines.interface.close()
+    assert "closed" in repr(lines.interface) and repr(lines.arguments[0]) == "<Surface: 4 lines of 5 nodes>"
+    assert set(stickslip.__all__) <= set(dir(stickslip)) and not [name for name in dir(stickslip) if name[0] == "_" != name[1]]
 
 
 def test_a_misspelt_word_lists_what_is_allowed(lines):
@@ -106,16 +144,10 @@ def test_every_refusal_of_the_abi_is_raised(monkeypatch):
     assert set(re.findall(r"\blib\.stickslip_(\w+)", texts)) == {"version", "build", "last_error_message"}
 
 
-def two_rows(x):
-    return np.asfortranarray(np.vstack([x, x])) if x.ndim == 1 else np.asfortranarray(x)
-
-
 # How an array is spoilt, and what is raised. Of an array of integers the last two mean nothing.
 SPOILT = {
     "dtype": (lambda x: x.astype(np.float32), TypeError),
     "byte order": (lambda x: x.astype(x.dtype.newbyteorder()), TypeError),
-    "order": (two_rows, ValueError),
-    "stride": (lambda x: np.repeat(x, 2, axis=0)[::2], ValueError),
     "shape": (lambda x: x[:-1].copy(), ValueError),
     "NaN": (lambda x: np.where(np.arange(x.size).reshape(x.shape) == 1, np.nan, x), ValueError),
     "infinite": (lambda x: np.where(np.arange(x.size).reshape(x.shape) == 0, -np.inf, x), ValueError),
@@ -170,13 +202,28 @@ def test_bad_arrays_are_refused_by_name(basis, how):
         for method, good in calls(made):
             for name, array in good.items():
                 if how in ("NaN", "infinite") and array.dtype.kind != "f" or name in ("integers", "reals", "coordinates") \
-                        and how in ("shape", "order"):
+                        and how == "shape":
                     continue  # a history and coordinates say their own length
                 with pytest.raises(stickslip.Error, match=f"^{name}:") as caught:
                     method(**{**good, name: spoil(array)})
                 assert isinstance(caught.value, kind)
                 tried += 1
     assert tried > 40
+
+
+@pytest.mark.parametrize("other", [np.asfortranarray, lambda x: np.repeat(x, 2, axis=0)[::2]])
+def test_arrays_in_any_order_are_taken(lines, other):
+    point = lines.pressed()
+    assert not any(other(part).flags.c_contiguous for part in point)
+    for ours, theirs in zip(lines.interface.residual(*map(other, point)), lines.interface.residual(*point)):
+        np.testing.assert_array_equal(ours, theirs)
+    first, second = (stickslip.Surface(other(side.coordinates), other(side.facet_nodes.reshape(-1, 2)), other(side.equations),
+                                       None if side.multiplier_equations is None else other(side.multiplier_equations))
+                     for side in lines.arguments)
+    with stickslip.Interface(first, second, **lines.options) as face:
+        assert (face.tangent(*point, lines.size) != lines.interface.tangent(*point, lines.size)).nnz == 0
+    with pytest.raises(TypeError, match="^lam: .* in C order"):  # it is written to
+        lines.interface.turn_multipliers(point[0], other(point[2]))
 
 
 def test_what_a_call_writes_to_must_be_writable(lines):

@@ -3,17 +3,21 @@
 What is refused here is of the same family as what the library refuses: an :class:`Error`, and a ValueError or TypeError too.
 """
 
+from typing import Any
+
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from ._library import ffi
 from .errors import InvalidSize, InvalidValue, NotFinite, WrongType
 
+#: Of whatever numbers.
+Array = NDArray[Any]
 _KINDS = {np.dtype(np.float64): "double[]", np.dtype(np.int64): "int64_t[]", np.dtype(np.int32): "int32_t[]",
           np.dtype(np.uint8): "uint8_t[]"}
 
 
-def converted(name: str, value: ArrayLike, dtype=np.float64) -> np.ndarray:
+def converted(name: str, value: ArrayLike, dtype: DTypeLike = np.float64) -> Array:
     """An ndarray as it is, a list as an array: of integers only where integers are needed, so that nothing is cut off."""
     if isinstance(value, np.ndarray):
         return value
@@ -27,7 +31,7 @@ def converted(name: str, value: ArrayLike, dtype=np.float64) -> np.ndarray:
     return array.astype(dtype)
 
 
-def coordinates(value: ArrayLike) -> np.ndarray:
+def coordinates(value: ArrayLike) -> Array:
     """Coordinates of nodes, which say by their shape how many there are, in space or in the plane."""
     value = converted("coordinates", value)
     if value.ndim != 2 or value.shape[1] not in (2, 3):
@@ -35,7 +39,7 @@ def coordinates(value: ArrayLike) -> np.ndarray:
     return given("coordinates", value, value.shape)
 
 
-def _check_shape(name: str, value: np.ndarray, shape: tuple) -> None:
+def _check_shape(name: str, value: Array, shape: tuple[int, ...]) -> None:
     """Refuses what has neither this shape nor as many entries in one row."""
     row = (int(np.prod(shape)),)
     if value.shape not in (shape, row):
@@ -43,11 +47,12 @@ def _check_shape(name: str, value: np.ndarray, shape: tuple) -> None:
         raise InvalidSize(f"{name}: shape {value.shape}, {allowed} is needed")
 
 
-def given(name: str, value: ArrayLike, shape: tuple, dtype=np.float64) -> np.ndarray:
+def given(name: str, value: ArrayLike, shape: tuple[int, ...], dtype: DTypeLike = np.float64) -> Array:
     """An input of this shape, or with as many entries in one row.
 
-    Lists are converted, and so are integers of another length, as those of 32 bits that PETSc numbers its unknowns with: they are
-    read once. Else an ndarray has to fit as it is: a silent copy in each iteration would cost unseen.
+    Lists are converted, and so are integers of another length, as those of 32 bits that PETSc numbers its unknowns with. An array in
+    another order, such as the transpose of one, is copied into C's; one in C's order is used as it is. Reals are float64: of others
+    digits are lost already.
     """
     value = converted(name, value, dtype)
     integers = np.dtype(dtype).kind == "i" and value.dtype.kind in "iu"
@@ -55,15 +60,14 @@ def given(name: str, value: ArrayLike, shape: tuple, dtype=np.float64) -> np.nda
         value = value.astype(dtype, copy=False)
     if value.dtype != dtype:
         raise WrongType(f"{name}: dtype {value.dtype}, {np.dtype(dtype)} is needed")
-    if not value.flags.c_contiguous:
-        raise InvalidValue(f"{name}: not in C order, numpy.ascontiguousarray makes it so")
     _check_shape(name, value, shape)
+    value = np.ascontiguousarray(value)
     if np.dtype(dtype).kind == "f" and not np.isfinite(value).all():
         raise NotFinite(f"{name}: entry {int(np.argmin(np.isfinite(value).ravel()))} is NaN or infinite")
     return value
 
 
-def output(name: str, value, shape: tuple, dtype=np.float64) -> np.ndarray:
+def output(name: str, value: Any, shape: tuple[int, ...], dtype: DTypeLike = np.float64) -> Array:
     """An output: a new array, or the caller's, if it can be written."""
     if value is None:
         return np.empty(shape, dtype)
@@ -77,6 +81,6 @@ def output(name: str, value, shape: tuple, dtype=np.float64) -> np.ndarray:
     return value
 
 
-def pointer(array: np.ndarray | None):
+def pointer(array: Array | None) -> Any:
     """The address of an array that stays alive during the call; NULL of None."""
     return ffi.NULL if array is None else ffi.from_buffer(_KINDS[array.dtype], array)

@@ -7,6 +7,7 @@ import contextlib
 import io
 import re
 from pathlib import Path
+from typing import Any
 
 _INTEGER = re.compile(r"^#define (STICKSLIP_\w+) (-?\d+)$", re.MULTILINE)
 _REAL = re.compile(r"^#define (STICKSLIP_\w+) (-?\d+\.\d+)$", re.MULTILINE)
@@ -23,12 +24,12 @@ def declarations(header: str) -> str:
     return constants + "\n" + body + "\n"
 
 
-def real_constants(header: str) -> dict:
+def real_constants(header: str) -> dict[str, float]:
     """The header's constants that are no integers, by name."""
     return {name: float(value) for name, value in _REAL.findall(header)}
 
 
-def builder(header: str):
+def builder(header: str) -> Any:
     """A cffi builder that knows the header."""
     from cffi import FFI
 

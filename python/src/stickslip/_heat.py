@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._arrays import given, pointer
+from ._arrays import Array, given, pointer
 from ._library import ffi, value_of
 
 if TYPE_CHECKING:
@@ -21,14 +21,14 @@ class Heat:
     """Heat that leaves the nodes, and what passes through the non-mortar ones, (n1,) each."""
 
     #: What leaves the non-mortar and the mortar nodes, (n1,) and (n2,) [F L/T]: to add to the internal heat flow.
-    heat1: np.ndarray
-    heat2: np.ndarray
+    heat1: Array
+    heat2: Array
     #: h [F/(L T K)], h times the mean jump of temperature [F/(L T)], that jump [K], the heat of friction [F L/T], the covered area [L^2].
-    conductance: np.ndarray
-    flux: np.ndarray
-    jump: np.ndarray
-    friction: np.ndarray
-    area: np.ndarray
+    conductance: Array
+    flux: Array
+    jump: Array
+    friction: Array
+    area: Array
 
 
 class Heats:
@@ -37,9 +37,9 @@ class Heats:
     n1: int
     n2: int
     _call: Callable[..., None]
-    _point: Callable[..., tuple]
+    _point: Callable[..., tuple[Any, ...]]
 
-    def _heat_point(self, point: tuple, temperatures: tuple, numbers: dict) -> tuple:
+    def _heat_point(self, point: tuple[Any, ...], temperatures: tuple[Any, Any], numbers: dict[str, float]) -> tuple[Any, ...]:
         law = ffi.new("struct stickslip_heat *", {"struct_size": ffi.sizeof("struct stickslip_heat")})
         known = [name for name, _ in ffi.typeof("struct stickslip_heat").fields if name != "struct_size"]
         for name, value in numbers.items():

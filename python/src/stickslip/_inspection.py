@@ -2,14 +2,15 @@
 
 import warnings
 from collections.abc import Callable
-from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._arrays import pointer
+from ._arrays import Array, pointer
 from ._library import ffi
 from .errors import StepRefused, StepWarning
+from .results import Counters, Diagnosis, Equilibrium, Report, States
 
 _TYPES = {"double": np.float64, "int32_t": np.int32, "int64_t": np.int64}
 # No sentence of the library comes near it.
@@ -18,11 +19,11 @@ _TEXT = 1 << 16
 _OVERLAP, _LAG = (0.003, 0.1), (0.01, 0.1)
 
 
-def _members(name: str):
+def _members(name: str) -> list[tuple[str, Any]]:
     return [(member, field.type) for member, field in ffi.typeof(f"struct stickslip_{name}").fields]
 
 
-def _scalars(struct, name: str) -> dict:
+def _scalars(struct: Any, name: str) -> dict[str, Any]:
     """The members that are numbers, and the short arrays among them."""
     out = {}
     for member, kind in _members(name):
@@ -33,7 +34,7 @@ def _scalars(struct, name: str) -> dict:
     return out
 
 
-def _new(name: str):
+def _new(name: str) -> Any:
     struct = ffi.new(f"struct stickslip_{name} *")
     struct.struct_size = ffi.sizeof(f"struct stickslip_{name}")
     return struct
@@ -43,12 +44,14 @@ class Inspection:
     """The part of :class:`stickslip.Interface` that changes nothing. What it needs of the rest:"""
 
     n1: int
-    _shape1: tuple
+    _shape1: tuple[int, ...]
+    _bearing: Array
+    _told: str
     _call: Callable[..., None]
-    _point: Callable[..., tuple]
-    _positions: Callable[..., tuple]
+    _point: Callable[..., tuple[Any, ...]]
+    _positions: Callable[..., tuple[Any, ...]]
 
-    def states(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, sums: ArrayLike | None = None) -> SimpleNamespace:
+    def states(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, sums: ArrayLike | None = None) -> States:
         """Arrays by the names of ``stickslip_states``: state, normal, traction, gap, slip, coverage, area, ...
 
         Call it before the commit.
@@ -65,18 +68,20 @@ class Inspection:
         for member, address in kept.items():
             setattr(out, member, address)
         self._call("states", *self._point(x1, x2, lam, sums), out)
-        return SimpleNamespace(**arrays)
+        states = States(**arrays, bearing=self._bearing)
+        self._told = f"last seen: {states}"
+        return states
 
     def equilibrium(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, modulus: float = 0.0,
-                    least_traction: float = 0.0, sums: ArrayLike | None = None) -> SimpleNamespace:
+                    least_traction: float = 0.0, sums: ArrayLike | None = None) -> Equilibrium:
         """How far the point is from equilibrium, by the names of ``stickslip_equilibrium``."""
         out = _new("equilibrium")
         out.modulus, out.least_traction = modulus, least_traction
         self._call("equilibrium", *self._point(x1, x2, lam, sums), out)
-        return SimpleNamespace(**_scalars(out, "equilibrium"))
+        return Equilibrium(**_scalars(out, "equilibrium"))
 
     def check_step(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, modulus: float = 0.0, least_traction: float = 0.0,
-                   tolerance: float = 1e-10, sums: ArrayLike | None = None) -> SimpleNamespace:
+                   tolerance: float = 1e-10, sums: ArrayLike | None = None) -> Equilibrium:
         """Asks whether a step may count, before its commit: :meth:`equilibrium`, judged as docs/host_convergence.md says.
 
         Raises :class:`stickslip.StepRefused` where the contact is not in equilibrium to ``tolerance``, bodies really overlap or are apart
@@ -103,10 +108,10 @@ class Inspection:
                 warnings.warn(text, StepWarning, stacklevel=2)
         return e
 
-    def report(self, x1: ArrayLike, x2: ArrayLike) -> SimpleNamespace:
+    def report(self, x1: ArrayLike, x2: ArrayLike) -> Report:
         """Which nodes are covered, and what surfaces that do not meet look like; ``text`` says it in sentences."""
         out = _new("report")
-        arrays: dict[str, np.ndarray] = {"cover": np.zeros(self.n1, np.int32), "fraction": np.zeros(self.n1),
+        arrays: dict[str, Any] = {"cover": np.zeros(self.n1, np.int32), "fraction": np.zeros(self.n1),
                                          "layers": np.zeros(self.n1, np.int32)}
         kept = {member: pointer(array) for member, array in arrays.items()}
         for member, address in kept.items():
@@ -114,29 +119,29 @@ class Inspection:
         buffer = ffi.new("char[]", _TEXT)
         out.text, out.text_capacity = buffer, _TEXT
         self._call("report", *self._positions(x1, x2), out)
-        return SimpleNamespace(**_scalars(out, "report"), **arrays, text=ffi.string(buffer).decode())
+        return Report(**_scalars(out, "report"), **arrays, text=ffi.string(buffer).decode())
 
-    def diagnose(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, sums: ArrayLike | None = None) -> SimpleNamespace:
+    def diagnose(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, sums: ArrayLike | None = None) -> Diagnosis:
         """The worst pairs and where the matrix may be singular; ``text`` says it in sentences."""
         out = _new("diagnosis")
         buffer = ffi.new("char[]", _TEXT)
         out.text, out.text_capacity = buffer, _TEXT
         self._call("diagnose", *self._point(x1, x2, lam, sums), out)
-        return SimpleNamespace(**_scalars(out, "diagnosis"), text=ffi.string(buffer).decode())
+        return Diagnosis(**_scalars(out, "diagnosis"), text=ffi.string(buffer).decode())
 
     def effects(self) -> str:
         """What the interface computes and why, in sentences."""
         buffer = ffi.new("char[]", _TEXT)
         self._call("effects", buffer, _TEXT)
-        return ffi.string(buffer).decode()
+        return str(ffi.string(buffer).decode())
 
-    def counters(self) -> SimpleNamespace:
+    def counters(self) -> Counters:
         """What the interface has done, by the names of ``stickslip_counters``."""
         out = _new("counters")
         self._call("counters", out)
-        return SimpleNamespace(**_scalars(out, "counters"))
+        return Counters(**_scalars(out, "counters"))
 
-    def carriers(self) -> tuple:
+    def carriers(self) -> tuple[Array, Array, Array]:
         """``(nodes, carriers, weights)``: which nodes carry weakly covered ones in this step, lam[A] = sum of w_AB lam[B].
 
         Read it after a commit.

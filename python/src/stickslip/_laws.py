@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._arrays import given, pointer
+from ._arrays import Array, given, pointer
 from ._library import ffi, value_of
 
 if TYPE_CHECKING:
@@ -24,14 +24,14 @@ class LawPoint:
     #: The trial traction along the normal, at most 0: the pressure with a minus [F/L^2].
     normal: float
     #: Slip of this step, and before it, (3,) [L].
-    slip: np.ndarray
-    slip_before: np.ndarray
+    slip: Array
+    slip_before: Array
     #: The unit vector along which the node would slip, or 0.
-    direction: np.ndarray
+    direction: Array
     #: The node's Coulomb coefficient.
     mu: float
     #: What the law remembers of the node, a copy: what is left in it is remembered if the step ends here.
-    states: np.ndarray
+    states: Array
 
 
 class Laws:
@@ -70,8 +70,8 @@ class Laws:
         def ask(_: Any, point: Any, states: Any, answer: Any, after: Any) -> int:
             try:
                 own = np.array(ffi.unpack(states, n_states) if n_states else [])
-                vectors = (np.array(list(v)) for v in (point.slip, point.slip_before, point.direction))
-                k, dnormal, *slope = law(LawPoint(point.node, point.normal, *vectors, point.mu, own))
+                slip, before, along = (np.array(list(v)) for v in (point.slip, point.slip_before, point.direction))
+                k, dnormal, *slope = law(LawPoint(point.node, point.normal, slip, before, along, point.mu, own))
                 answer.threshold, answer.dthreshold_dnormal = float(k), float(dnormal)
                 if slope:
                     answer.dthreshold_dslip = [float(v) for v in slope[0]]
@@ -86,7 +86,7 @@ class Laws:
         self._call("set_threshold", function, ffi.NULL, int(n_states))
         self._kept_law = function
 
-    def law_states(self) -> np.ndarray:
+    def law_states(self) -> Array:
         """What the law remembers at the last commit, (n1, states a node)."""
         count = ffi.new("int64_t *")
         self._call("law_states", 0, ffi.NULL, count)

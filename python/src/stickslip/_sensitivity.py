@@ -2,37 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._arrays import given, pointer
+from ._arrays import Array, given, pointer
 from ._library import ffi
+from .results import Gradient
 
 if TYPE_CHECKING:
     import scipy.sparse
     from numpy.typing import ArrayLike
-
-
-@dataclass
-class Gradient:
-    """Products of an adjoint with the derivatives of a residual; None: not asked for."""
-
-    #: By the positions at the last commit, (n1, d) and (n2, d).
-    previous1: np.ndarray | None = None
-    previous2: np.ndarray | None = None
-    #: By the positions of now, likewise.
-    now1: np.ndarray | None = None
-    now2: np.ndarray | None = None
-    #: By the coefficients of friction, (n1,).
-    friction: np.ndarray | None = None
-    #: By the largest shear traction, (1,).
-    shear_limit: np.ndarray | None = None
-    #: By the offsets, (n1,) and (n2,).
-    offsets1: np.ndarray | None = None
-    offsets2: np.ndarray | None = None
 
 
 class Sensitivities:
@@ -40,24 +21,24 @@ class Sensitivities:
 
     n1: int
     n2: int
-    _shape1: tuple
-    _shape2: tuple
-    _shape_multipliers: tuple
+    _shape1: tuple[int, ...]
+    _shape2: tuple[int, ...]
+    _shape_multipliers: tuple[int, ...]
     _call: Callable[..., None]
-    _point: Callable[..., tuple]
+    _point: Callable[..., tuple[Any, ...]]
 
-    def _argument_shapes(self) -> dict:
+    def _argument_shapes(self) -> dict[str, tuple[int, ...]]:
         vectors = {name + side: shape for name in ("previous", "now") for side, shape in (("1", self._shape1), ("2", self._shape2))}
         return {**vectors, "friction": (self.n1,), "shear_limit": (1,), "offsets1": (self.n1,), "offsets2": (self.n2,)}
 
-    def _shapes_of(self, names) -> dict:
+    def _shapes_of(self, names: Iterable[str]) -> dict[str, tuple[int, ...]]:
         known = self._argument_shapes()
         for name in names:
             if name not in known:
                 raise TypeError(f"{name}: nothing that a residual depends on; there are {', '.join(known)}")
         return {name: known[name] for name in names}
 
-    def previous_tangent(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, size: int) -> scipy.sparse.spmatrix:
+    def previous_tangent(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, size: int) -> scipy.sparse.csr_matrix:
         """How the residual depends on the positions of the last commit: a scipy sparse matrix of ``(size, size)``, rows of the residual's
         equations, columns of the displacements'. For gradients of a run: docs/gradients.md."""
         import scipy.sparse
@@ -83,13 +64,13 @@ class Sensitivities:
         self._call("adjoint", *at, *(pointer(given(*array)) for array in a), to)
         return out
 
-    def sensitivity(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, **along: ArrayLike) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def sensitivity(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, **along: ArrayLike) -> tuple[Array, Array, Array]:
         """``(force1, force2, rows)``: the change of the residual along a direction, given by members of :class:`Gradient`."""
         *at, _ = self._point(x1, x2, lam, None)
         arrays = {name: given(name, along[name], shape) for name, shape in self._shapes_of(along).items()}
         direction = ffi.new("struct stickslip_direction *", {"struct_size": ffi.sizeof("struct stickslip_direction")})
         for name, array in arrays.items():
             setattr(direction, name, pointer(array))
-        out = tuple(np.empty(shape) for shape in (self._shape1, self._shape2, self._shape_multipliers))
-        self._call("sensitivity", *at, direction, *(pointer(array) for array in out))
-        return out
+        force1, force2, rows = (np.empty(shape) for shape in (self._shape1, self._shape2, self._shape_multipliers))
+        self._call("sensitivity", *at, direction, pointer(force1), pointer(force2), pointer(rows))
+        return force1, force2, rows

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._arrays import given, output, pointer
+from ._arrays import Array, given, output, pointer
 from ._library import ffi, value_of
 from .interface import Interface
 
@@ -24,7 +24,7 @@ class Condensed:
     def __init__(self, interface: Interface):
         self._interface = interface
 
-    def multipliers(self, x1: ArrayLike, x2: ArrayLike, host1: ArrayLike, out: np.ndarray | None = None) -> np.ndarray:
+    def multipliers(self, x1: ArrayLike, x2: ArrayLike, host1: ArrayLike, out: Array | None = None) -> Array:
         """The multipliers that follow from the displacements [F/L^2]. Call it first in an evaluation."""
         face = self._interface
         out = output("out", out, face._shape_multipliers)
@@ -32,7 +32,7 @@ class Condensed:
         face._call("condensed_multipliers", *face._positions(x1, x2), host, pointer(out))
         return out
 
-    def residual(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, host1: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+    def residual(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, host1: ArrayLike) -> tuple[Array, Array]:
         """``(rows1, force2)``: in place of the host's rows of the non-mortar nodes; to add to the mortar nodes' rows [F]."""
         face = self._interface
         rows1, force2 = np.empty(face._shape1), np.empty(face._shape2)

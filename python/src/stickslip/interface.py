@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import options as _options
-from ._arrays import given, output, pointer
+from ._arrays import Array, given, output, pointer
 from ._heat import Heats
 from ._inspection import Inspection
 from ._laws import Laws
@@ -20,6 +21,7 @@ from .surface import Surface
 
 if TYPE_CHECKING:
     import scipy.sparse
+    from typing_extensions import Unpack
 
 
 class Interface(Heats, Inspection, Laws, Sensitivities):
@@ -34,14 +36,14 @@ class Interface(Heats, Inspection, Laws, Sensitivities):
     nonmortar, mortar : Surface
         The non-mortar side has the multipliers.
     **options
-        Members of ``stickslip_options`` and of ``stickslip_method`` by name, for example
+        :class:`stickslip.Options`: members of ``stickslip_options`` and of ``stickslip_method`` by name, for example
         ``mu=0.2, modulus=210e3, model="plane"``; ``method="paper"`` takes the paper's element.
         A choice is the end of the header's constant in small letters. What is left out has the library's default.
     """
 
-    def __init__(self, nonmortar: Surface, mortar: Surface, **options):
+    def __init__(self, nonmortar: Surface, mortar: Surface, **options: Unpack[_options.Options]):
         self._handle = ffi.NULL
-        made, _method = _options.make(options)
+        made, _method = _options.make(dict(options))
         first, kept_first = nonmortar._struct()
         second, kept_second = mortar._struct()
         self.dimension = 3 if made.model == value_of("model", "MODEL", "solid") else 2
@@ -57,10 +59,17 @@ class Interface(Heats, Inspection, Laws, Sensitivities):
         if numbers is None or numbers.size != int(np.prod(self._shape_multipliers)):
             found = None if numbers is None else numbers.shape
             raise ValueError(f"multiplier_equations of nonmortar: {found}, {self._shape_multipliers} is needed")
+        self._bearing = (numbers.reshape(self.n1, -1) >= 0).any(axis=1)
         slot = ffi.new("struct stickslip_interface **")
         call("interface_create", first, second, made, slot)
         del kept_first, kept_second
         self._handle = slot[0]
+        law = _options.word("FRICTION", made.friction)
+        self._text = f"{nonmortar} on {mortar}, {law}{f', mu {made.mu:g}' if made.mu else ''}"
+        self._told = "no states yet"
+
+    def __repr__(self) -> str:
+        return f"<Interface: {self._text}; {'closed' if self._handle == ffi.NULL else self._told}>"
 
     def close(self) -> None:
         """Gives the handle back. A second time does nothing."""
@@ -69,18 +78,18 @@ class Interface(Heats, Inspection, Laws, Sensitivities):
             self._handle = ffi.NULL
             call("interface_destroy", slot)
 
-    def __enter__(self):
+    def __enter__(self) -> Interface:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()
 
-    def __del__(self):
+    def __del__(self) -> None:
         handle = getattr(self, "_handle", None)
         if handle and lib is not None:
             self.close()
 
-    def _call(self, name: str, *arguments) -> None:
+    def _call(self, name: str, *arguments: Any) -> None:
         if self._handle == ffi.NULL:
             raise InvalidValue("the interface is closed")
         try:
@@ -91,27 +100,27 @@ class Interface(Heats, Inspection, Laws, Sensitivities):
                 raise
             raise refused from cause
 
-    def _positions(self, x1, x2) -> tuple:
+    def _positions(self, x1: ArrayLike, x2: ArrayLike) -> tuple[Any, Any]:
         return pointer(given("x1", x1, self._shape1)), pointer(given("x2", x2, self._shape2))
 
-    def _sums(self, sums):
+    def _sums(self, sums: ArrayLike | None) -> Any:
         from ._library import constants
 
         shape = (self.n1, constants["SUMS_PER_NODE"])
         return ffi.NULL if sums is None else pointer(given("sums", sums, shape))
 
-    def _point(self, x1, x2, lam, sums) -> tuple:
+    def _point(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, sums: ArrayLike | None) -> tuple[Any, ...]:
         multipliers = pointer(given("lam", lam, self._shape_multipliers))
         return (*self._positions(x1, x2), multipliers, self._sums(sums))
 
-    def initial_multipliers(self, out: np.ndarray | None = None) -> np.ndarray:
+    def initial_multipliers(self, out: Array | None = None) -> Array:
         """Multipliers to start the first step with, not zero, so that a body that rests on contact is held."""
         out = output("out", out, self._shape_multipliers)
         self._call("initial_multipliers", pointer(out))
         return out
 
     def residual(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, sums: ArrayLike | None = None,
-                 out: tuple = (None, None, None)) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+                 out: tuple[Array | None, Array | None, Array | None] = (None, None, None)) -> tuple[Array, Array, Array]:
         """``(force1, force2, rows)``: what to add to the host's internal forces [F], and the multiplier rows.
 
         The force on the non-mortar body is ``-force1``. ``out``: three arrays to write to.
@@ -138,7 +147,7 @@ class Interface(Heats, Inspection, Laws, Sensitivities):
         matrix = scipy.sparse.coo_matrix((values[:n], (rows[:n], columns[:n])), shape=(size, size))
         return matrix if form == "coo" else matrix.asformat(form)
 
-    def sums(self, x1: ArrayLike, x2: ArrayLike) -> np.ndarray:
+    def sums(self, x1: ArrayLike, x2: ArrayLike) -> Array:
         """What a host on several processes adds up over them, (n1, SUMS_PER_NODE)."""
         from ._library import constants
 
@@ -158,7 +167,7 @@ class Interface(Heats, Inspection, Laws, Sensitivities):
         """Undoes the last commit."""
         self._call("rollback")
 
-    def history(self) -> dict:
+    def history(self) -> dict[str, Array]:
         """The committed history as arrays, to pickle."""
         integers, reals = ffi.new("int64_t *"), ffi.new("int64_t *")
         self._call("history_size", integers, reals)
@@ -166,7 +175,7 @@ class Interface(Heats, Inspection, Laws, Sensitivities):
         self._call("history_export", integers[0], pointer(out["integers"]), reals[0], pointer(out["reals"]))
         return out
 
-    def restore(self, history: dict) -> None:
+    def restore(self, history: dict[str, Array]) -> None:
         """Takes a history of an interface that was made in the same way."""
         integers, reals = history["integers"], history["reals"]
         integers = given("integers", integers, (len(integers),), np.int64)
@@ -178,7 +187,7 @@ class Interface(Heats, Inspection, Laws, Sensitivities):
         out = ffi.new("double *")
         step = pointer(given("dx1", dx1, self._shape1)), pointer(given("dx2", dx2, self._shape2))
         self._call("step_limit", *self._positions(x1, x2), *step, penetration, out)
-        return out[0]
+        return float(out[0])
 
     def set_friction(self, mu: ArrayLike) -> None:
         """Coulomb coefficients of the non-mortar nodes, (n1,) [-]."""
@@ -199,7 +208,7 @@ class Interface(Heats, Inspection, Laws, Sensitivities):
         self._call("set_offsets", pointer(offsets1), pointer(offsets2))
 
     def shape_offsets(self, side: str, shape: str, radius: float, point: ArrayLike,
-                      direction: ArrayLike = (0.0, 0.0, 1.0)) -> np.ndarray:
+                      direction: ArrayLike = (0.0, 0.0, 1.0)) -> Array:
         """Offsets that give the facets of one side, "nonmortar" or "mortar", the "sphere" or "cylinder" back that they stand for.
 
         ``radius``: negative of a cavity; ``point``: the centre, or one of the axis; ``direction``: of the axis. See ``set_offsets``.
@@ -210,7 +219,7 @@ class Interface(Heats, Inspection, Laws, Sensitivities):
         self._call("shape_offsets", number, value_of("shape", "SHAPE", shape), float(radius), *place, pointer(out))
         return out
 
-    def adjust(self, tolerance: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def adjust(self, tolerance: float) -> tuple[Array, Array, Array]:
         """``(coordinates, gaps, moved)``: the non-mortar nodes put onto the mortar side where they are within ``tolerance`` of it.
 
         ``coordinates`` like x1; ``gaps``, (n1,): the distance before; ``moved``, (n1,) int32: 0 nothing opposite, 1 left, 2 moved.
@@ -229,7 +238,7 @@ class Interface(Heats, Inspection, Laws, Sensitivities):
         slip = None if slip is None else pointer(given("slip", slip, self._shape1))
         self._call("set_committed", *self._positions(x1, x2), pointer(None) if slip is None else slip, commits)
 
-    def set_constraints(self, nodes: Sequence[int], directions: ArrayLike) -> None:
+    def set_constraints(self, nodes: Sequence[int] | Array, directions: ArrayLike) -> None:
         """Directions, (k, d), in which nodes, (k,) int64, are held."""
         held = given("nodes", nodes, (len(nodes),), np.int64)
         along = given("directions", directions, (len(held), self.dimension))
@@ -239,9 +248,13 @@ class Interface(Heats, Inspection, Laws, Sensitivities):
         """Normals of the step that follows: "committed" or "current"."""
         self._call("use_normals", value_of("normals", "NORMALS", normals))
 
-    def turn_multipliers(self, x1: ArrayLike, lam: np.ndarray) -> None:
+    def turn_multipliers(self, x1: ArrayLike, lam: Array) -> None:
         """Turns multipliers with the normals, in place, at the start of a step."""
         if not isinstance(lam, np.ndarray):
             raise TypeError(f"lam: {type(lam).__name__}, an ndarray is needed, for the call writes to it")
-        lam = output("lam", given("lam", lam, self._shape_multipliers), self._shape_multipliers)
+        given("lam", output("lam", lam, self._shape_multipliers), self._shape_multipliers)
         self._call("turn_multipliers", pointer(given("x1", x1, self._shape1)), pointer(lam))
+
+
+# For help, and for completion.
+Interface.__signature__ = inspect.Signature(list(_options.with_options(Interface.__init__).parameters.values())[1:])  # type: ignore[attr-defined]

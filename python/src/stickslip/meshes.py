@@ -1,17 +1,18 @@
 """What to do with surfaces before they become interfaces: creases, and nodes that interfaces share."""
 
 from collections.abc import Sequence
-from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._arrays import given, pointer
+from ._arrays import Array, given, pointer
 from ._library import call, ffi
+from .results import Crosspoints
 from .surface import Surface
 
 
-def split_creases(coordinates: ArrayLike, facets: Sequence, angle: float = 0.7) -> tuple:
+def split_creases(coordinates: ArrayLike, facets: Sequence[Any] | Array, angle: float = 0.7) -> tuple[list[Array], Array]:
     """``(facets, originals)``: a non-mortar surface whose nodes on sharp edges are listed once a side.
 
     Parameters
@@ -29,7 +30,7 @@ def split_creases(coordinates: ArrayLike, facets: Sequence, angle: float = 0.7) 
     struct, kept = surface._struct()
     count = ffi.new("int64_t *")
 
-    def split(capacity, *outputs):
+    def split(capacity: int, *outputs: Any) -> None:
         arguments = struct, angle, 0, capacity, *outputs, count
         if surface.dimension == 2:
             call("lines_split_creases", *arguments)
@@ -43,7 +44,7 @@ def split_creases(coordinates: ArrayLike, facets: Sequence, angle: float = 0.7) 
     return np.split(numbers, surface.facet_offsets[1:-1]), originals
 
 
-def crosspoints(interfaces: Sequence[tuple]) -> SimpleNamespace:
+def crosspoints(interfaces: Sequence[tuple[ArrayLike, ArrayLike]]) -> Crosspoints:
     """The nodes that several interfaces of a host share in a way that matters.
 
     Parameters
@@ -58,7 +59,7 @@ def crosspoints(interfaces: Sequence[tuple]) -> SimpleNamespace:
     """
     sides = []
     for name, side in (("non-mortar nodes", 0), ("mortar nodes", 1)):
-        lists = [given(f"interfaces[{k}], {name}", pair[side], (len(pair[side]),), np.int64)
+        lists = [given(f"interfaces[{k}], {name}", pair[side], np.shape(pair[side]), np.int64)
                  for k, pair in enumerate(interfaces)]
         offsets = np.cumsum([0, *map(len, lists)], dtype=np.int64)
         # One entry at least: an empty array has no address.
@@ -69,4 +70,4 @@ def crosspoints(interfaces: Sequence[tuple]) -> SimpleNamespace:
     n = count[0]
     nodes, kinds, claims = np.empty(n, np.int64), np.empty(n, np.int32), np.empty(n, np.int64)
     call("crosspoints_find", *arguments, n, pointer(nodes), pointer(kinds), pointer(claims), count)
-    return SimpleNamespace(nodes=nodes, kinds=kinds, claims=claims)
+    return Crosspoints(nodes=nodes, kinds=kinds, claims=claims)

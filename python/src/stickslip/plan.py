@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._arrays import pointer
+from ._arrays import Array, pointer
 from ._library import constants, ffi, value_of
 from .errors import exception_of
 from .interface import Interface
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import scipy.sparse
 
 
-def empty_csr(rows, row_lengths, columns, size: int) -> scipy.sparse.csr_matrix:
+def empty_csr(rows: Array, row_lengths: Array, columns: Array, size: int) -> scipy.sparse.csr_matrix:
     """A scipy CSR matrix of zeros with these entries: ascending rows, how many entries each has, the columns of all of them."""
     import scipy.sparse
 
@@ -30,7 +30,7 @@ def empty_csr(rows, row_lengths, columns, size: int) -> scipy.sparse.csr_matrix:
     return scipy.sparse.csr_matrix(arrays, shape=(size, size), copy=False)
 
 
-def _matrix(interface, entries: str, n_rows: int, count: int, size: int):
+def _matrix(interface: Interface, entries: str, n_rows: int, count: int, size: int) -> scipy.sparse.csr_matrix:
     """The same with the entries of a plan that was made."""
     rows, offsets = np.empty(n_rows, np.int64), np.empty(n_rows + 1, np.int64)
     columns = np.empty(count, np.int64)
@@ -52,7 +52,7 @@ class _Planned:
         self.renewals = 0
         self._make(x1, x2)
 
-    def _renewed(self, x1, x2, *rest) -> None:
+    def _renewed(self, x1: ArrayLike, x2: ArrayLike, *rest: ArrayLike | None) -> None:
         try:
             self._fill(x1, x2, *rest)
         except exception_of(constants["MISSING_ENTRY"]):
@@ -75,7 +75,7 @@ class Plan(_Planned):
     pairs : "active", "active_sums" or "skin" (``STICKSLIP_PLAN_...``)
     """
 
-    def _make(self, x1, x2) -> None:
+    def _make(self, x1: ArrayLike, x2: ArrayLike) -> None:
         face = self._interface
         n_rows, count = ffi.new("int64_t *"), ffi.new("int64_t *")
         face._call("plan", *face._positions(x1, x2), self._pairs, n_rows, count)
@@ -86,7 +86,7 @@ class Plan(_Planned):
         self._renewed(x1, x2, lam, sums)
         return self.matrix
 
-    def _fill(self, x1, x2, lam, sums) -> None:
+    def _fill(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, sums: ArrayLike | None) -> None:
         data = self.matrix.data
         self._interface._call("plan_values", *self._interface._point(x1, x2, lam, sums), len(data), pointer(data))
 
@@ -98,7 +98,7 @@ class CondensedPlan(_Planned):
     :class:`Plan`; the interface has ``basis="dual"``. The other pieces: :meth:`Condensed.piece`.
     """
 
-    def _make(self, x1, x2) -> None:
+    def _make(self, x1: ArrayLike, x2: ArrayLike) -> None:
         face = self._interface
         n_rows, counts = ffi.new("int64_t[2]"), ffi.new("int64_t[2]")
         # If a matrix is refused, no shorter one is left for the new plan to fill.
@@ -112,7 +112,7 @@ class CondensedPlan(_Planned):
         self._renewed(x1, x2, lam)
         return self.forces, self.constraints
 
-    def _fill(self, x1, x2, lam) -> None:
+    def _fill(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike) -> None:
         face = self._interface
         data = pointer(self.forces.data), pointer(self.constraints.data)
         face._call("condensed_values", *face._point(x1, x2, lam, None)[:3], *data)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _arrays
-from ._arrays import given, output, pointer
+from ._arrays import Array, given, output, pointer
 from ._library import call, ffi
 from .plan import empty_csr
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 _ARMS = ("end", "middle")
 
 
-def _destroy(handle) -> None:
+def _destroy(handle: Any) -> None:
     call("rigid_destroy", ffi.new("struct stickslip_rigid **", handle))
 
 
@@ -58,7 +58,7 @@ class RigidBody:
         self._motion.struct_size = ffi.sizeof("struct stickslip_rigid_motion")
 
     @property
-    def unknowns(self) -> np.ndarray:
+    def unknowns(self) -> Array:
         """u [L] and theta [-], (6,) or (3,), in the order of ``equations``; set it to what the host has found.
 
         theta is the rotation vector since the last :meth:`turn`, at most pi long; in the plane an angle.
@@ -73,7 +73,7 @@ class RigidBody:
         self._motion.rotation[3 - len(value[d:]) : 3] = value[d:].tolist()
 
     @property
-    def turned(self) -> np.ndarray:
+    def turned(self) -> Array:
         """R, what the body had turned by at t_n, (3, 3) [-]. Keep it for a restart, and set it then."""
         turned = np.array(list(self._motion.turned)).reshape(3, 3)
         return turned if turned.any() else np.eye(3)
@@ -94,13 +94,13 @@ class RigidBody:
             raise ValueError(f"arms: {value!r}, 'end' or 'middle' is needed")
         self._motion.arms = _ARMS.index(value)
 
-    def positions(self, out: np.ndarray | None = None) -> np.ndarray:
+    def positions(self, out: Array | None = None) -> Array:
         """Where the nodes are, like ``coordinates`` [L]: x1 or x2 of an interface."""
         out = output("out", out, self.coordinates.shape)
         call("rigid_positions", self._body, self._motion, pointer(out))
         return out
 
-    def resultant(self, forces: ArrayLike, out: np.ndarray | None = None) -> np.ndarray:
+    def resultant(self, forces: ArrayLike, out: Array | None = None) -> Array:
         """Force [F] and moment about the reference point [F L], (6,) or (3,), of forces on the nodes, like ``coordinates``.
 
         Of ``force1`` or ``force2`` of :meth:`Interface.residual` it is what to add to the host's internal forces in ``equations``.
@@ -132,7 +132,7 @@ class RigidPlan:
         self.matrix: scipy.sparse.csr_matrix | None = None
         self.renewals = 0
         self._size = size
-        self._entries: tuple = ()
+        self._entries: tuple[Array, ...] = ()
         self._handle = None
 
     def values(self, nodal: scipy.sparse.spmatrix, forces: Sequence[ArrayLike]) -> scipy.sparse.csr_matrix:
@@ -155,7 +155,7 @@ class RigidPlan:
         call("rigid_values", self._handle, motions, pointer(together), pointer(data), pointer(matrix.data))
         return matrix
 
-    def _matrix_of(self, coo) -> scipy.sparse.csr_matrix:
+    def _matrix_of(self, coo: Any) -> scipy.sparse.csr_matrix:
         """The matrix as it is, or a new one if the entries are others. A refusal leaves everything as it was."""
         if self.matrix is not None and all(map(np.array_equal, self._entries, (coo.row, coo.col))):
             return self.matrix

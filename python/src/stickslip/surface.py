@@ -1,12 +1,15 @@
 """A surface: nodes, facets, equations."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _arrays
-from ._arrays import given, pointer
+from ._arrays import Array, given, pointer
 from ._library import ffi
 
 
@@ -29,7 +32,7 @@ class Surface:
         or ``"NODE_ELSEWHERE"``. Without it all are own.
     """
 
-    def __init__(self, coordinates: ArrayLike, facets: Sequence, equations: ArrayLike | None = None,
+    def __init__(self, coordinates: ArrayLike, facets: Sequence[Any] | Array, equations: ArrayLike | None = None,
                  multiplier_equations: ArrayLike | None = None, owned: ArrayLike | None = None):
         self.coordinates = _arrays.coordinates(coordinates)
         self.n_nodes, self.dimension = self.coordinates.shape
@@ -48,7 +51,14 @@ class Surface:
             self.multiplier_equations = given("multiplier_equations", multiplier_equations, wanted, np.int64)
         self.owned = None if owned is None else given("owned", owned, (self.n_nodes,), np.int32)
 
-    def _struct(self):
+    def __str__(self) -> str:
+        facets = "lines" if self.dimension == 2 else "facets"
+        return f"{len(self.facet_offsets) - 1} {facets} of {self.n_nodes} nodes"
+
+    def __repr__(self) -> str:
+        return f"<Surface: {self}>"
+
+    def _struct(self) -> tuple[Any, dict[str, Any]]:
         """The C struct, and what has to live as long as it does."""
         out = ffi.new("struct stickslip_surface *")
         out.struct_size = ffi.sizeof("struct stickslip_surface")

@@ -1,0 +1,146 @@
+"""One interface of a :class:`stickslip.Contact`: its nodes, its numbers among the unknowns, its plan."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .condensed import Condensed
+from .errors import InvalidSize, InvalidValue
+from .interface import Interface
+from .meshes import split_creases
+from .plan import CondensedPlan, Plan
+from .results import States
+from .skin import Facets, Integers, Reals
+from .surface import Surface
+
+if TYPE_CHECKING:
+    import scipy.sparse
+
+# Corners of a facet by the number of its nodes, in the plane and in space.
+_CORNERS = {2: {2: 2, 3: 2}, 3: {3: 3, 4: 4, 6: 3, 8: 4, 9: 4}}
+
+_MESHIO = {(2, 2): "line", (2, 3): "line3", (3, 3): "triangle", (3, 4): "quad", (3, 6): "triangle6", (3, 8): "quad8", (3, 9): "quad9"}
+
+
+def _rows(name: str, facets: Facets, dimension: int) -> list[Integers]:
+    rows = [np.asarray(row) for row in facets]
+    if not rows or any(row.ndim != 1 or row.dtype.kind not in "iu" for row in rows):
+        raise InvalidSize(f"{name}: rows of node numbers are needed, one or more, as stickslip.skin gives them")
+    for row in rows:
+        if len(row) not in _CORNERS[dimension]:
+            raise InvalidSize(f"{name}: a facet of {len(row)} nodes; in this model {sorted(_CORNERS[dimension])} are possible")
+    return rows
+
+
+class Pair:
+    """Two surfaces of the nodes X, whose displacements are the equations ``numbers``; multipliers are numbered from ``first`` on."""
+
+    def __init__(self, X: Reals, numbers: Integers, first: int, sides: tuple[Facets, Facets | Surface], *, held: Integers,
+                 crease: float | None, condensed: bool, options: dict[str, Any]):
+        dimension = X.shape[1]
+        rows = _rows("facets1", sides[0], dimension)
+        self.nodes1 = np.unique(np.concatenate(rows))
+        local = [np.searchsorted(self.nodes1, row) for row in rows]
+        if crease is not None:
+            local, originals = split_creases(X[self.nodes1], local, crease)
+            self.nodes1 = self.nodes1[originals]
+        self.facets1 = local
+        self.X1, self.equations1 = X[self.nodes1], numbers[self.nodes1]
+        if isinstance(sides[1], Surface):
+            self.mortar, self.nodes2 = sides[1], None
+            if (self.mortar.equations >= 0).any():
+                raise InvalidValue("facets2: a Surface with unknowns; give the node numbers of its facets in its place")
+            self.equations2 = self.mortar.equations
+        else:
+            rows = _rows("facets2", sides[1], dimension)
+            self.nodes2 = np.unique(np.concatenate(rows))
+            self.equations2 = numbers[self.nodes2]
+            self.mortar = Surface(X[self.nodes2], [np.searchsorted(self.nodes2, row) for row in rows], self.equations2)
+        # What is prescribed on both sides has no multiplier.
+        self.held = np.isin(self.equations1, held) | (self.equations1 < 0) & (self.equations2 < 0).all(axis=0)
+        self.mask = self._mask(local, options)
+        self.count = int(self.mask.sum())
+        multipliers = np.full(self.mask.shape, -1, np.int64)
+        multipliers[self.mask] = first + np.arange(self.count)
+        if dimension == 2:
+            options = {"model": "plane", **options}
+        self.face = Interface(Surface(self.X1, local, self.equations1, multipliers), self.mortar, **options)
+        if self.mask.ndim == 1 and self.held.any():  # the one multiplier of a node stays, its normal keeps to what is free
+            nodes, axes = np.nonzero(self.held)
+            self.face.set_constraints(nodes, np.eye(dimension)[axes])
+        #: Whether its normals follow the surface within a step.
+        self.turns = True
+        try:
+            self.face.use_normals("current")
+        except InvalidValue:
+            self.turns = False
+        self.modulus = float(options.get("modulus", 0.0))
+        #: The largest traction of the steps before.
+        self.largest = 0.0
+        self._plan: Plan | CondensedPlan | None = None
+        if condensed:
+            self.system = Condensed(self.face)
+            self.lam = np.zeros(self.mask.shape)
+            self.scaled = False
+
+    def _mask(self, facets: list[Integers], options: dict[str, Any]) -> NDArray[np.bool_]:
+        """Which multipliers there are, (n1, d) or (n1,): of corners, unless mid nodes have their own, and of what is not held."""
+        bearing = np.zeros(len(self.nodes1), dtype=bool)
+        every, corners = options.get("multiplier_space") == "sub", _CORNERS[self.X1.shape[1]]
+        for row in facets:
+            bearing[row if every else row[: corners[len(row)]]] = True
+        return bearing if options.get("friction") == "none" else bearing[:, None] & ~self.held
+
+    def positions(self, u: Reals) -> tuple[Reals, Reals]:
+        """Of both sides, with the displacements of all nodes."""
+        x1 = self.X1 + u[self.nodes1]
+        return x1, self.mortar.coordinates + (0.0 if self.nodes2 is None else u[self.nodes2])
+
+    def mesh(self, u: Reals, states: States) -> Any:
+        """The first side of meshio's."""
+        import meshio
+
+        cells = [(_MESHIO[self.X1.shape[1], len(row)], row[None]) for row in self.facets1]
+        x1, _ = self.positions(u)
+        flat = {name: np.asarray(getattr(states, name)) for name in ("state", "pressure", "coverage", "share")}
+        vectors = {name: self._in_space(getattr(states, name)) for name in ("normal", "traction", "slip")}
+        return meshio.Mesh(self._in_space(x1), cells, point_data={**flat, **vectors})
+
+    @staticmethod
+    def _in_space(vectors: Reals) -> Reals:
+        return np.pad(vectors, ((0, 0), (0, 3 - vectors.shape[1])))
+
+    def multipliers(self, values: Reals) -> Reals:
+        """The array of the library from the values of those that there are."""
+        lam = np.zeros(self.mask.shape)
+        lam[self.mask] = values
+        return lam
+
+    def spread(self, vector: Reals, force1: Reals, force2: Reals) -> None:
+        """Adds forces to the rows of the equations; creases have nodes twice."""
+        for equations, force in ((self.equations1, force1), (self.equations2, force2)):
+            np.add.at(vector, equations[equations >= 0], force[equations >= 0])
+
+    def gather(self, vector: Reals) -> tuple[Reals, Reals]:
+        """What a vector has at the nodes of both sides; 0 where there is no equation."""
+        side1, side2 = (np.where(at < 0, 0.0, vector[at]) for at in (self.equations1, self.equations2))
+        return side1, side2
+
+    def tangent(self, point: tuple[Reals, Reals, Reals], size: int) -> scipy.sparse.csr_matrix:
+        """The share of the matrix, by a plan that is made when it is first asked for."""
+        if self._plan is None:
+            self._plan = Plan(self.face, *point[:2], size, pairs="skin")
+        return self._plan.values(*point)
+
+    def pieces(self, point: tuple[Reals, Reals, Reals], size: int) -> tuple[Any, Any, Any]:
+        """Forces, elimination and constraints of the condensed matrix."""
+        if self._plan is None:
+            self._plan = CondensedPlan(self.face, *point[:2], size, pairs="skin")
+        forces, constraints = self._plan.values(*point)
+        elimination = self.system.piece(*point, size, "elimination")
+        if self.scaled:
+            constraints = constraints + self.system.piece(*point, size, "scales")
+        return forces, elimination, constraints

@@ -1,0 +1,328 @@
+"""Contact on the host's own vectors: surfaces out of its nodes, multipliers behind its unknowns."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _arrays
+from ._arrays import given, output
+from ._pair import Pair
+from .errors import InvalidSize, InvalidValue
+from .interface import Interface
+from .options import Options, with_options
+from .results import Gradient, States
+from .skin import Facets, Integers, Reals
+from .surface import Surface
+
+if TYPE_CHECKING:
+    import scipy.sparse
+    from typing_extensions import Unpack
+
+#: Positions of both sides, and the multipliers.
+Point = tuple[Reals, Reals, Reals]
+# What contact equilibrium is measured to, over scales of its own: docs/host_convergence.md.
+_BALANCE = 1e-10
+
+
+class Contact:
+    """All interfaces of a host. Its vectors have the host's unknowns, then the multipliers.
+
+        contact = stickslip.Contact(X, dofs).add(bottom_of_the_block, top_of_the_table, mu=0.3, modulus=210e3)
+        x = contact.start()                     # the host's unknowns, at 0, and multipliers to start with
+        contact.add_residual(x, r)              # r has the host's internal minus external forces
+        matrix = contact.tangent(x, K)          # K is the host's; sparse, all unknowns
+        if contact.balanced(x): contact.commit(x)
+
+    Parameters
+    ----------
+    X : (n, 3) or (n, 2)
+        The nodes of the host in the first configuration [L].
+    dofs : like X, integers, or a scipy sparse matrix
+        Which entry of the host's vector is which displacement; -1: the node does not move that way. Without it they follow node by
+        node. A matrix of (X.size, size) gives the displacements of the nodes in this order, for elements whose unknowns are no
+        values at nodes.
+    size : how many unknowns the host has; without it as many as ``dofs`` says
+    condensed : True: no multipliers among the unknowns. Vectors have the host's unknowns alone, and :meth:`tangent` changes the rows of
+        the host. The unknowns of the first side's nodes must all be free.
+    """
+
+    def __init__(self, X: ArrayLike, dofs: Any = None, size: int | None = None, *, condensed: bool = False):
+        import scipy.sparse
+
+        self.X: Reals = _arrays.coordinates(X)
+        self._map: scipy.sparse.csr_matrix | None = None
+        if scipy.sparse.issparse(dofs):
+            if dofs.shape[0] != self.X.size:
+                raise InvalidSize(f"dofs: {dofs.shape[0]} rows, {self.X.size} are needed, one a displacement of a node")
+            if condensed:
+                raise InvalidValue("condensed: needs dofs that are displacements of nodes, not a matrix")
+            self._map, size = dofs.tocsr(), dofs.shape[1]
+            dofs = None
+        numbers = np.arange(self.X.size).reshape(self.X.shape) if dofs is None else dofs
+        self.dofs: Integers = given("dofs", numbers, self.X.shape, np.int64).reshape(self.X.shape)
+        self._n_inner = int(self.dofs.max()) + 1 if size is None or self._map is not None else size
+        #: How many unknowns the host has.
+        self.n_host: int = self._n_inner if self._map is None else self._map.shape[1]
+        if self.dofs.max() >= self._n_inner:
+            raise InvalidValue(f"size: {size}, and dofs has {self.dofs.max()}; at least {self.dofs.max() + 1} is needed")
+        self.condensed = condensed
+        self._pairs: list[Pair] = []
+        self._start: Reals | None = None
+        self._at: Reals | None = None
+        self._commits = 0
+
+    def add(self, facets1: Facets, facets2: Facets | Surface, *, held: ArrayLike = (), crease: float | None = None,
+            **options: Unpack[Options]) -> Contact:
+        """Adds an interface, and gives itself, so that more can be added.
+
+        Parameters
+        ----------
+        facets1, facets2 : node numbers as :func:`stickslip.skin` gives them. The first side has the multipliers: the smaller one, the
+            softer one, the finer one. The second may be a :class:`stickslip.Surface` without unknowns, rigid or analytic; what is
+            written to its ``coordinates`` moves it.
+        held : dofs of nodes of the first side that are prescribed on *both* sides, as on a plane of symmetry: no multiplier there.
+            Where dofs is a matrix, rows of it.
+        crease : nodes on edges of the first side that are sharper than this angle get multipliers a face [rad]: docs/host_edges.md
+        **options : :class:`stickslip.Options`, as of :class:`stickslip.Interface`
+        """
+        if self._start is not None:
+            raise InvalidValue("add: all interfaces are needed before start")
+        numbers = self.dofs if self._map is None else np.arange(self.X.size).reshape(self.X.shape)
+        self._pairs.append(Pair(self.X, numbers, self._n_inner + self.n_multipliers, (facets1, facets2), crease=crease,
+                                held=np.asarray(held, dtype=np.int64).ravel(), condensed=self.condensed, options=dict(options)))
+        return self
+
+    @property
+    def interfaces(self) -> list[Interface]:
+        """The handles, in the order in which they were added."""
+        return [pair.face for pair in self._pairs]
+
+    @property
+    def n_multipliers(self) -> int:
+        """How many multipliers there are, condensed or not."""
+        return sum(pair.count for pair in self._pairs)
+
+    @property
+    def size(self) -> int:
+        """How many entries a vector has."""
+        return self.n_host + (0 if self.condensed else self.n_multipliers)
+
+    def __repr__(self) -> str:
+        kind = "condensed" if self.condensed else "behind them"
+        return f"<Contact: {self.n_host} unknowns of the host, {self.n_multipliers} multipliers {kind}; {self.interfaces}>"
+
+    def start(self, u: ArrayLike | None = None) -> Reals:
+        """A vector to start the first step with: the host's unknowns ``u``, without it 0, and multipliers that hold what touches."""
+        if not self._pairs:
+            raise InvalidValue("start: there is no interface; add one")
+        x = np.zeros(self.size)
+        if u is not None:
+            x[: self.n_host] = given("u", u, (self.n_host,))
+        if self.condensed:
+            for pair, (x1, x2, _) in self._evaluated(x):
+                pair.system.multipliers(x1, x2, np.zeros(x1.shape))  # refuses here what has no condensed form, not in a step
+        else:
+            x[self.n_host :] = np.concatenate([pair.face.initial_multipliers()[pair.mask] for pair in self._pairs])
+        self._start, self._at = x.copy(), None
+        return x
+
+    def add_residual(self, x: Reals, r: Reals) -> None:
+        """Adds the forces of contact and the rows of multipliers to r, which has the host's internal minus external forces."""
+        output("r", r, (self.size,))
+        self._at = None
+        inner, rows = np.zeros(self._n_inner), []
+        own = r.copy()
+        for pair, (x1, x2, lam) in self._evaluated(x):
+            if self.condensed:
+                host1 = np.where(pair.equations1 < 0, 0.0, own[pair.equations1])
+                fresh = not self._commits and self._start is not None and np.array_equal(x, self._start)
+                pair.lam = pair.face.initial_multipliers() if fresh else pair.system.multipliers(x1, x2, host1)
+                pair.scaled = not fresh
+                rows1, force2 = pair.system.residual(x1, x2, pair.lam, host1)
+                pair.spread(inner, rows1 - host1, force2)
+            else:
+                force1, force2, row = pair.face.residual(x1, x2, lam)
+                pair.spread(inner, force1, force2)
+                rows.append(row[pair.mask])
+        r[: self.n_host] += inner if self._map is None else self._map.T @ inner
+        if not self.condensed:
+            r[self.n_host :] += np.concatenate(rows)
+        self._at = x.copy()
+
+    def tangent(self, x: Reals, K: Any = None) -> scipy.sparse.csr_matrix:
+        """The matrix of all unknowns: ``K`` of the host's, and the share of contact; without ``K`` that share alone.
+
+        A condensed one needs ``K``, and :meth:`add_residual` at the same x before.
+        """
+        import scipy.sparse
+
+        if self.condensed:
+            return self._condense(self._points(x), K)
+        size = self._n_inner + self.n_multipliers
+        total = sum((pair.tangent(point, size) for pair, point in self._points(x)), scipy.sparse.csr_matrix((size, size)))
+        if self._map is not None:
+            wide = scipy.sparse.block_diag([self._map, scipy.sparse.identity(self.n_multipliers)], "csr")
+            total = wide.T @ total @ wide
+        if K is not None:
+            total = total + _grown(scipy.sparse.csr_matrix(K), self.n_host, self.size)
+        return total.tocsr()
+
+    def _condense(self, points: list[tuple[Pair, Point]], K: Any) -> scipy.sparse.csr_matrix:
+        if K is None:
+            raise InvalidValue("K: the host's matrix is needed, as contact is condensed")
+        pieces = [pair.pieces(point, self.n_host) for pair, point in points]
+        inner = K + sum(forces for forces, _, _ in pieces)
+        return (inner + sum(elimination @ inner + constraints for _, elimination, constraints in pieces)).tocsr()
+
+    def balanced(self, x: Reals, tolerance: float = _BALANCE) -> bool:
+        """Whether every interface is in contact equilibrium. Whether forces balance is the host's to ask."""
+        for pair, point in self._points(x):
+            e = pair.face.equilibrium(*point, modulus=pair.modulus, least_traction=pair.largest)
+            if not (e.gap <= tolerance * e.gap_scale and e.traction <= tolerance * e.traction_scale
+                    and e.slip <= tolerance * e.slip_scale):
+                return False
+        return True
+
+    def check(self, x: Reals) -> None:
+        """Raises :class:`stickslip.StepRefused` where the step must not count, by :meth:`stickslip.Interface.check_step`."""
+        for pair, point in self._points(x):
+            pair.face.check_step(*point, modulus=pair.modulus, least_traction=pair.largest)
+
+    def states(self, x: Reals) -> list[States]:
+        """What :meth:`stickslip.Interface.states` says of each interface. Ask before the commit."""
+        return [pair.face.states(*point) for pair, point in self._points(x)]
+
+    def surface(self, x: Reals, states: States, interface: int = 0) -> Any:
+        """The first side of an interface as x has it, a mesh of meshio with what ``states`` say of its nodes: ``.write("contact.vtu")``."""
+        return self._pairs[interface].mesh(self._displacements(x), states)
+
+    def commit(self, x: Reals) -> None:
+        """Accepts a converged step: all interfaces do, or none."""
+        points = []
+        for pair, (x1, x2, lam) in self._points(x):
+            states = pair.face.states(x1, x2, lam)
+            if self.condensed:  # or the rounding of the host's forces decides who sticks at first in the next step
+                traction = states.traction
+                lam = np.where(pair.mask, (traction * states.normal).sum(axis=1) if lam.ndim == 1 else traction, 0.0)
+            pair.face.commit_check(x1, x2, lam)
+            points.append((pair, (x1, x2, lam), np.linalg.norm(states.traction, axis=1).max()))
+        for pair, point, traction in points:
+            pair.face.commit(*point)
+            pair.largest = max(pair.largest, float(traction))
+        self._commits += 1
+
+    def rollback(self) -> None:
+        """Undoes the last commit."""
+        for pair in self._pairs:
+            pair.face.rollback()
+        self._commits -= 1
+
+    def set_committed(self, x: Reals, commits: int = 0) -> None:
+        """What x ended becomes the step before, whatever was committed; ``commits``: how many there were then. Slip so far is 0 again,
+        which nothing depends on."""
+        u = self._displacements(x)
+        for pair in self._pairs:
+            pair.face.set_committed(*pair.positions(u), commits=commits)
+        self._commits = commits
+
+    def adjoint(self, x: Reals, a: Reals, wanted: tuple[str, ...]) -> tuple[list[Gradient], Reals]:
+        """Products of a vector with the derivatives of the contacts' residual: :meth:`stickslip.Interface.adjoint` of each interface with
+        the members ``wanted``, previous1 and previous2 among them; and these two in a vector of the host's, B^T a."""
+        if self.condensed:
+            raise InvalidValue("adjoint: needs multipliers among the unknowns, not condensed")
+        inner = a[: self.n_host] if self._map is None else self._map @ a[: self.n_host]
+        behind, last, products = np.zeros(self._n_inner), self.n_host, []
+        for pair, point in self._points(x):
+            first, last = last, last + pair.count
+            products.append(pair.face.adjoint(*point, *pair.gather(inner), pair.multipliers(a[first:last]), wanted))
+            pair.spread(behind, products[-1].previous1, products[-1].previous2)
+        whole = np.zeros(self.size)
+        whole[: self.n_host] = behind if self._map is None else self._map.T @ behind
+        return products, whole
+
+    def use_normals(self, normals: str) -> bool:
+        """Normals of the step that follows, "committed" or "current", where they follow the surface; False: nowhere.
+
+        See :meth:`stickslip.Interface.use_normals`.
+        """
+        turning = [pair.face for pair in self._pairs if pair.turns]
+        for face in turning:
+            face.use_normals(normals)
+        return bool(turning)
+
+    def turn_multipliers(self, x: Reals) -> None:
+        """Turns multipliers in place with the surfaces, where a step starts from positions that are turned already."""
+        last = self.n_host
+        for pair, (x1, _, lam) in self._evaluated(x):
+            first, last = last, last + pair.count
+            pair.face.turn_multipliers(x1, lam)
+            if not self.condensed:
+                x[first:last] = lam[pair.mask]
+
+    def step_limit(self, x: Reals, step: Reals) -> float:
+        """How much of a change of all unknowns may be taken before surfaces lie in each other, at most 1."""
+        u, moved = self._displacements(x), self._displacements(step)
+        limits = [1.0]
+        for pair in self._pairs:
+            x1, x2 = pair.positions(u)
+            end1, end2 = pair.positions(u + moved)
+            limits.append(pair.face.step_limit(x1, x2, end1 - x1, end2 - x2))
+        return min(limits)
+
+    def unknowns_of_sides(self) -> list[tuple[Integers, Integers]]:
+        """The host's unknowns at the nodes of both sides of each interface; -1: none."""
+        if self._map is None:
+            return [(pair.equations1, pair.equations2) for pair in self._pairs]
+        column = np.append(self._map.indices, -1)[np.where(np.diff(self._map.indptr) > 0, self._map.indptr[:-1], -1)]
+        return [(column[pair.equations1], np.where(pair.equations2 < 0, -1, column[pair.equations2])) for pair in self._pairs]
+
+    def first_side(self) -> Integers:
+        """The host's unknowns of all nodes that have multipliers."""
+        bearing = [pair.mask.reshape(len(pair.mask), -1).any(axis=1) for pair in self._pairs]
+        numbers: Integers = np.concatenate([pair.equations1[nodes].ravel() for pair, nodes in zip(self._pairs, bearing)])
+        return numbers[numbers >= 0]
+
+    def report(self) -> str:
+        """Which nodes are covered in the first configuration, and what looks wrong, in sentences."""
+        u = np.zeros(self.X.shape)
+        told = [pair.face.report(*pair.positions(u)).text for pair in self._pairs]
+        nodes, claims = np.unique(np.concatenate([np.unique(pair.nodes1) for pair in self._pairs]), return_counts=True)
+        if (claims > 1).any():
+            told.append(f"Nodes {nodes[claims > 1].tolist()} have multipliers in several interfaces: see docs/host_edges.md.")
+        return "\n".join(told)
+
+    def _displacements(self, x: Reals) -> Reals:
+        x = given("x", x, (self.size,))
+        if self._map is not None:
+            out: Reals = (self._map @ x[: self.n_host]).reshape(self.X.shape)
+            return out
+        return np.where(self.dofs < 0, 0.0, x[self.dofs])
+
+    def _points(self, x: Reals) -> list[tuple[Pair, Point]]:
+        """Each interface with positions and multipliers. Condensed ones are those of the last residual, at this x."""
+        if self.condensed and (self._at is None or not np.array_equal(x, self._at)):
+            raise InvalidValue("x: condensed multipliers follow from the host's forces: add_residual at this x is needed before")
+        return self._evaluated(x)
+
+    def _evaluated(self, x: Reals) -> list[tuple[Pair, Point]]:
+        u, last, out = self._displacements(x), self.n_host, []
+        for pair in self._pairs:
+            first, last = last, last + pair.count
+            out.append((pair, (*pair.positions(u), pair.lam if self.condensed else pair.multipliers(x[first:last]))))
+        return out
+
+
+def _grown(K: scipy.sparse.csr_matrix, n_host: int, size: int) -> scipy.sparse.csr_matrix:
+    """The host's matrix among all unknowns, without a copy of its entries."""
+    import scipy.sparse
+
+    if K.shape not in ((n_host, n_host), (size, size)):
+        raise InvalidSize(f"K: shape {K.shape}, {(n_host, n_host)} or {(size, size)} is needed")
+    offsets = np.concatenate([K.indptr, np.full(size - K.shape[0], K.indptr[-1], K.indptr.dtype)])
+    return scipy.sparse.csr_matrix((K.data, K.indices, offsets), shape=(size, size), copy=False)
+
+
+Contact.add.__signature__ = with_options(Contact.add)  # type: ignore[attr-defined]
