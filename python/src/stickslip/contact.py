@@ -230,15 +230,17 @@ class Contact:
 
     def adjoint(self, x: Reals, a: Reals, wanted: tuple[str, ...]) -> tuple[list[Gradient], Reals]:
         """Products of a vector with the derivatives of the contacts' residual: :meth:`stickslip.Interface.adjoint` of each interface with
-        the members ``wanted``, previous1 and previous2 among them; and these two in a vector of the host's, B^T a."""
+        the members ``wanted``; and previous1 and previous2, where both are among them, in a vector of the host's: B^T a."""
         if self.condensed:
             raise InvalidValue("adjoint: needs multipliers among the unknowns, not condensed")
         inner = a[: self.n_host] if self._map is None else self._map @ a[: self.n_host]
         behind, last, products = np.zeros(self._n_inner), self.n_host, []
         for pair, point in self._points(x):
             first, last = last, last + pair.count
-            products.append(pair.face.adjoint(*point, *pair.gather(inner), pair.multipliers(a[first:last]), wanted))
-            pair.spread(behind, products[-1].previous1, products[-1].previous2)
+            product = pair.face.adjoint(*point, *pair.gather(inner), pair.multipliers(a[first:last]), wanted)
+            products.append(product)
+            if product.previous1 is not None and product.previous2 is not None:
+                pair.spread(behind, product.previous1, product.previous2)
         whole = np.zeros(self.size)
         whole[: self.n_host] = behind if self._map is None else self._map.T @ behind
         return products, whole
