@@ -43,6 +43,7 @@ struct Dynamics {
   Vec     u, v, force, prescribed;
   Vec     v_next, force_next, prescribed_next; /* the same at the end of the step: what is prescribed from its start on, else by dynamics_measure() */
   Vec     middle, work, smooth, impulse; /* the place of the forces; work space; forces but those of contact; 2 M v / dt */
+  Vec     rate;                          /* velocities at the time of the forces, times the stiffness_damping */
   Balance start, last, now;
   PetscBool told; /* that contact gives energy at all */
   EnergyTold energies[N_ENERGIES];
@@ -69,6 +70,7 @@ PetscErrorCode dynamics_destroy(Physics *physics);
 PetscErrorCode dynamics_begin(Physics *physics);
 PetscErrorCode dynamics_forces(Physics *physics, Vec f_local, PetscInt *status);
 PetscErrorCode dynamics_stiffness(Physics *physics, Mat matrix, PetscInt *status);
+BulkStep       dynamics_bulk(const Physics *physics); /* the step up to u_local, with what is in `rate` */
 PetscErrorCode dynamics_look(const Physics *physics, StepView *step);
 PetscErrorCode dynamics_looked(const Physics *physics, StepView *step);
 /* of entry k: what M is multiplied with in the residual; the velocity that damping takes, at the time of the forces */

@@ -36,12 +36,12 @@ static void add_strain(const Physics *physics, const PetscScalar *u, Balance *ba
   const Dynamics *d     = physics->dynamics;
   for (PetscInt c = 0; c < cells->n; c++) {
     const PetscInt first = cells->offsets[c], n = cells->offsets[c + 1] - first;
+    const Element  element = bulk_element(physics, c);
     PetscReal      u_cell[3 * CELL_NODES];
     if (d->first[c] < 0) continue;
     for (PetscInt k = 0; k < 3 * n; k++)
       u_cell[k] = PetscRealPart(u[cells->dofs[first + k / 3] + k % 3]);
-    balance->strain += cell_energy(cell_kind(physics->mesh->dimension, n), &physics->mesh->space,
-                                   &physics->materials[cells->body[c]], cells->X + 3 * first, u_cell);
+    balance->strain += cell_energy(&element, u_cell);
   }
 }
 
@@ -201,6 +201,7 @@ static PetscErrorCode add_damping(Physics *physics, PetscReal *gone)
 {
   Dynamics          *d = physics->dynamics;
   const Vec          kept = physics->u_local;
+  BulkStep           bulk = dynamics_bulk(physics);
   StepView           step;
   PetscScalar       *w, *f;
   PetscInt           status;
@@ -213,11 +214,12 @@ static PetscErrorCode add_damping(Physics *physics, PetscReal *gone)
     w[k] = dynamics_velocity(d, &step, k);
   PetscCall(VecRestoreArray(d->middle, &w));
   if (d->stiffness_damping > 0) {
-    PetscCall(VecScale(d->middle, d->stiffness_damping));
-    physics->u_local = d->middle;
-    PetscCall(bulk_forces(physics, d->work, &status));
+    bulk.damping_only = PETSC_TRUE;
+    PetscCall(VecCopy(d->middle, d->rate));
+    PetscCall(VecScale(d->rate, d->stiffness_damping));
+    physics->u_local = d->rate; /* which linear bodies take */
+    PetscCall(bulk_step_forces(physics, &bulk, d->work, &status));
     physics->u_local = kept;
-    PetscCall(VecScale(d->middle, 1 / d->stiffness_damping));
   }
   PetscCall(VecGetArray(d->middle, &w));
   PetscCall(VecGetArray(d->work, &f));

@@ -38,6 +38,7 @@ static PetscErrorCode first_force(Physics *physics, PetscInt *status)
 {
   Dynamics          *d    = physics->dynamics;
   const Vec          kept = physics->u_local;
+  const BulkStep     step = {.from = d->u, .to = d->u, .rate = d->rate};
   const PetscScalar *v;
   PetscScalar       *f;
   PetscFunctionBegin;
@@ -45,8 +46,9 @@ static PetscErrorCode first_force(Physics *physics, PetscInt *status)
   PetscCall(VecCopy(d->u, d->middle));
   physics->u_local = d->middle;
   PetscCall(loads_values(physics));
-  PetscCall(VecAXPY(d->middle, d->stiffness_damping, d->v)); /* a linear body: f(u) + b f(v) = f(u + b v) */
-  PetscCall(bulk_forces(physics, d->force, status));
+  PetscCall(VecAXPY(d->rate, d->stiffness_damping, d->v));
+  PetscCall(VecAXPY(d->middle, 1, d->rate)); /* a linear body: f(u) + b f(v) = f(u + b v) */
+  PetscCall(bulk_step_forces(physics, &step, d->force, status));
   physics->u_local = kept;
   PetscCall(VecGetArrayRead(d->v, &v));
   PetscCall(VecGetArray(d->force, &f));
@@ -57,13 +59,13 @@ static PetscErrorCode first_force(Physics *physics, PetscInt *status)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-enum { N_VECTORS = 11 };
+enum { N_VECTORS = 12 };
 
 /* All that it has. */
 static void list_vectors(Dynamics *d, Vec *vectors[N_VECTORS])
 {
   Vec *const all[N_VECTORS] = {&d->u, &d->v, &d->force, &d->prescribed, &d->v_next, &d->force_next, &d->prescribed_next,
-                               &d->middle, &d->work, &d->smooth, &d->impulse};
+                               &d->middle, &d->work, &d->smooth, &d->impulse, &d->rate};
   for (int k = 0; k < N_VECTORS; k++)
     vectors[k] = all[k];
 }

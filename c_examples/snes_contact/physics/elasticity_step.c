@@ -1,0 +1,186 @@
+/* Forces of finite strain in a step of `dynamics`, from F to F' (a prime: its end), with the mean of the stresses between both strains:
+ *
+ *   P = F_a S,   S = mean of S(E + tau (E' - E)) over tau from 1 - 2 alpha_f to 1,   F_a = alpha_f F + (1 - alpha_f) F'.
+ *
+ * With alpha_f = 1/2 that is P : (F' - F) = S : (E' - E) = W' - W, so that the energy is kept whatever turns (J. C. Simo and N. Tarnow, ZAMP 43,
+ * 1992). The moment is, because S is symmetric. dP/dF' is F_a (dS/dE') F' + (1 - alpha_f) S, which is not symmetric. The mean is Gauss's: of an S
+ * that is linear in E one point is exact. With smaller alpha_f the scheme is one of second order as before, and the strains are not
+ * those of the place between, where all that turns is shorter.
+ *
+ * Mean dilatation: W is that of the cell, so that p is of the cell's mean of v at each tau. Plane stress: E_33 is such that S_33 = 0, at each tau. */
+#include "physics/elasticity_step.h"
+#include <petscdt.h>
+
+enum { MOST_MEANS = 4 };
+
+/* Places tau and their weights; with mean dilatation p and dp there. */
+typedef struct {
+  PetscInt  n;
+  PetscReal tau[MOST_MEANS], weight[MOST_MEANS], p[MOST_MEANS], dp[MOST_MEANS];
+  PetscReal of_force[MOST_MEANS][3 * CELL_NODES], of_mean[MOST_MEANS][3 * CELL_NODES];
+} Means;
+
+void step_place(const StepPoints *points, PetscInt q, PetscReal F[9])
+{
+  const PetscReal alpha_f = points->step->alpha_f;
+  for (int k = 0; k < 9; k++)
+    F[k] = (k % 4 == 0) + alpha_f * points->before[q].H[k] + (1 - alpha_f) * points->after[q].H[k];
+}
+
+/* A_iJkL = F_iM D_MJNL R_kN + part delta_ik S_JL */
+static void moduli(const StepStress *stress, PetscReal A[81])
+{
+  const PetscReal *F = stress->F, *D = stress->D, *R = stress->R;
+  PetscReal        DR[81];
+  for (int MJ = 0; MJ < 9; MJ++) {
+    for (int k = 0; k < 3; k++) {
+      for (int L = 0; L < 3; L++)
+        DR[9 * MJ + 3 * k + L] = D[9 * MJ + L] * R[3 * k] + D[9 * MJ + 3 + L] * R[3 * k + 1] + D[9 * MJ + 6 + L] * R[3 * k + 2];
+    }
+  }
+  for (int i = 0; i < 3; i++) {
+    for (int JkL = 0; JkL < 27; JkL++)
+      A[27 * i + JkL] = F[3 * i] * DR[JkL] + F[3 * i + 1] * DR[27 + JkL] + F[3 * i + 2] * DR[54 + JkL] +
+                        (JkL / 3 % 3 == i) * stress->part * stress->S[3 * (JkL / 9) + JkL % 3];
+  }
+}
+
+static void times(const PetscReal F[9], const PetscReal S[9], PetscReal P[9])
+{
+  for (int i = 0; i < 3; i++) {
+    for (int J = 0; J < 3; J++)
+      P[3 * i + J] = F[3 * i] * S[J] + F[3 * i + 1] * S[3 + J] + F[3 * i + 2] * S[6 + J];
+  }
+}
+
+void step_add(const StepPoints *points, PetscInt q, StepStress *stress, PetscReal f[], PetscReal K[])
+{
+  PetscReal P[9], A[81];
+  times(stress->F, stress->S, P);
+  point_add_forces(points->element, &points->after[q], P, f);
+  if (!K) return;
+  moduli(stress, A);
+  point_add_stiffness(points->element, &points->after[q], A, K);
+}
+
+void step_add_mean(const StepPoints *points, PetscInt q, const StepStress *stress, const PetscReal V[9], PetscReal of_force[], PetscReal of_mean[])
+{
+  PetscReal P[9];
+  times(stress->F, V, P);
+  point_add_forces(points->element, &points->after[q], P, of_force);
+  times(stress->R, V, P);
+  point_add_forces(points->element, &points->after[q], P, of_mean);
+}
+
+void step_add_product(const StepPoints *points, PetscReal factor, const PetscReal of_force[], const PetscReal of_mean[], PetscReal K[])
+{
+  const PetscInt n = 3 * cell_nodes(points->element->kind);
+  for (PetscInt k = 0; k < n * n; k++)
+    K[k] += factor / points->whole * of_force[k / n] * of_mean[k % n];
+}
+
+/* E at a place; false: there is none in plane stress */
+static PetscBool strain_at(const StepPoints *points, PetscInt q, PetscReal tau, PetscReal E[9])
+{
+  PetscReal end[9];
+  green_strain(points->before[q].H, E);
+  green_strain(points->after[q].H, end);
+  for (int k = 0; k < 9; k++)
+    E[k] += tau * (end[k] - E[k]);
+  return (PetscBool)(points->element->space->kind != SPACE_PLANE_STRESS || plane_stress_strain(points->element->material, E));
+}
+
+/* Gauss's rule on [0, 1], worked once for each number of points */
+typedef struct {
+  PetscBool known;
+  PetscReal place[MOST_MEANS], weight[MOST_MEANS];
+} Rule;
+
+static PetscErrorCode find_rule(PetscInt n, const Rule **rule)
+{
+  static Rule rules[MOST_MEANS + 1];
+  PetscFunctionBeginHot;
+  if (!rules[n].known) PetscCall(PetscDTGaussQuadrature(n, 0, 1, rules[n].place, rules[n].weight));
+  rules[n].known = PETSC_TRUE;
+  *rule          = &rules[n];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode set_means(const StepPoints *points, Means *means)
+{
+  const Material *material = points->element->material;
+  const Rule     *rule     = NULL;
+  PetscFunctionBeginHot;
+  means->n = material->law->mean_points;
+  PetscCall(find_rule(means->n, &rule));
+  for (PetscInt k = 0; k < means->n; k++) {
+    means->tau[k]    = 1 - 2 * points->step->alpha_f * (1 - rule->place[k]);
+    means->weight[k] = rule->weight[k];
+  }
+  for (PetscInt k = 0; k < means->n && material->mean_dilatation; k++) {
+    PetscReal mean = 0, E[9];
+    for (PetscInt q = 0; q < points->n; q++) {
+      (void)strain_at(points, q, means->tau[k], E);
+      mean += points->after[q].weight / points->whole * material->law->volume_of_strain(E);
+    }
+    material->law->pressure(material, mean, &means->p[k], &means->dp[k]);
+    PetscCall(PetscArrayzero(means->of_force[k], 3 * cell_nodes(points->element->kind)));
+    PetscCall(PetscArrayzero(means->of_mean[k], 3 * cell_nodes(points->element->kind)));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* S and, with K, tau D in the mean; false: there is none in plane stress */
+static PetscBool mean_stress(const StepPoints *points, PetscInt q, Means *means, StepStress *stress, PetscBool K)
+{
+  const Material *material = points->element->material;
+  const PetscBool is_mean  = material->mean_dilatation;
+  for (PetscInt k = 0; k < means->n; k++) {
+    PetscReal E[9], V[9], S[9], D[81], p = means->p[k], dp = 0;
+    if (!strain_at(points, q, means->tau[k], E)) return PETSC_FALSE;
+    if (!is_mean) material->law->pressure(material, material->law->volume_of_strain(E), &p, &dp);
+    material->law->second_stress(material, E, p, dp, S, V, K ? D : NULL);
+    for (int i = 0; i < 9; i++)
+      stress->S[i] += means->weight[k] * S[i];
+    if (!K) continue;
+    if (points->element->space->kind == SPACE_PLANE_STRESS) plane_stress_condense(D);
+    for (int i = 0; i < 81; i++)
+      stress->D[i] += means->weight[k] * means->tau[k] * D[i];
+    if (is_mean) step_add_mean(points, q, stress, V, means->of_force[k], means->of_mean[k]);
+  }
+  return PETSC_TRUE;
+}
+
+static PetscErrorCode add_elastic(const StepPoints *points, PetscReal f[], PetscReal K[], PetscBool *inverted)
+{
+  Means means;
+  PetscFunctionBeginHot;
+  PetscCall(set_means(points, &means));
+  for (PetscInt q = 0; q < points->n && !*inverted; q++) {
+    StepStress stress = {.part = 1 - points->step->alpha_f};
+    step_place(points, q, stress.F);
+    for (int k = 0; k < 9; k++)
+      stress.R[k] = (k % 4 == 0) + points->after[q].H[k];
+    *inverted = (PetscBool)!mean_stress(points, q, &means, &stress, (PetscBool)(K != NULL));
+    step_add(points, q, &stress, f, K);
+  }
+  for (PetscInt k = 0; k < means.n && K && points->element->material->mean_dilatation; k++)
+    step_add_product(points, means.weight[k] * means.tau[k] * means.dp[k], means.of_force[k], means.of_mean[k], K);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode cell_step_forces(const Element *element, const CellStep *step, PetscBool damping_only, PetscReal f[], PetscReal K[], PetscBool *inverted)
+{
+  const PetscInt n      = 3 * cell_nodes(element->kind);
+  StepPoints     points = {.element = element, .step = step};
+  PetscReal      mean;
+  PetscFunctionBeginHot;
+  PetscCall(PetscArrayzero(f, n));
+  if (K) PetscCall(PetscArrayzero(K, n * n));
+  *inverted = (PetscBool)(!cell_points(element, step->from, points.before, &points.n, &mean, &points.whole) ||
+                          !cell_points(element, step->to, points.after, &points.n, &mean, &points.whole));
+  if (*inverted) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!damping_only) PetscCall(add_elastic(&points, f, K, inverted));
+  if (step->rate) step_add_damping(&points, f, K);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
