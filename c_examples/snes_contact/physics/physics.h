@@ -336,7 +336,7 @@ typedef struct {
   PetscInt  hidden;            /* a part whose forces would balance if those of contact counted in full; -1: none */
 } Judgement;
 PetscErrorCode parts_measure(Physics *physics);
-Judgement      parts_judge(const Physics *physics, PetscReal rtol, PetscReal atol, PetscBool flies);
+Judgement      parts_judge(const Physics *physics, PetscReal rtol, PetscReal atol, PetscBool exact);
 PetscErrorCode parts_hidden_words(const Physics *physics, PetscInt part, char why[], size_t length);
 PetscErrorCode parts_resultants(Physics *physics, char why[], size_t length); /* of each part as a whole; empty: they balance */
 /* loads_turned.c: pressures that do not follow surfaces that turn */
