@@ -22,10 +22,6 @@ static void check_body(Scene *scene, const Physics *physics, PetscInt b)
   const Material *material = &physics->materials[b];
   if (body->rigid || body->analytic) return;
   if (!(material->density > 0)) scene_fail(scene, body->name, "density", "`dynamics` asks for one above 0.");
-  if (physics->dynamics->stiffness_damping > 0 && material->law->finite)
-    scene_fail(scene, "dynamics", "stiffness_damping",
-               "'%s' has a material of finite strain, whose turns such a damping would brake: leave it out, or give rho_inf below 1.",
-               body->name);
 }
 
 /* A rigid body that is not held in all has inertia, and moves at the start. */

@@ -11,7 +11,7 @@
 #include "physics/elasticity_step.h"
 #include <petscdt.h>
 
-enum { MOST_MEANS = 4 };
+enum { MOST_MEANS = 6 };
 
 /* Places tau and their weights; with mean dilatation p and dp there. */
 typedef struct {
