@@ -1,4 +1,4 @@
-/* Between elasticity_step.c and elasticity_damping.c: a cell at both ends of a step. */
+/* For elasticity_step.c and elasticity_damping.c: a cell at both ends of a step (step_points.c). */
 #ifndef SNES_CONTACT_ELASTICITY_STEP_H
 #define SNES_CONTACT_ELASTICITY_STEP_H
 #include "physics/cell_points.h"
