@@ -137,11 +137,10 @@ static void add_rounding(Physics *physics, const PetscScalar *u)
   const Cells    *cells = &physics->cells;
   const Dynamics *d     = physics->dynamics;
   for (PetscInt c = 0; c < cells->n; c++) {
-    const PetscInt n = cells->offsets[c + 1] - cells->offsets[c], *dofs = cells->dofs + cells->offsets[c];
+    const PetscInt n = d->cells[c].n, *dofs = d->cells[c].dofs;
     PetscReal      largest = 0, mass = 0;
-    if (d->first[c] < 0) continue;
     for (PetscInt a = 0; a < n; a++) {
-      mass = PetscMax(mass, d->mass[d->first[c] + (n + 1) * a]);
+      mass = PetscMax(mass, d->cells[c].m[(n + 1) * a]);
       for (int i = 0; i < 3; i++)
         largest = PetscMax(largest, PetscAbsScalar(u[dofs[a] + i]));
     }

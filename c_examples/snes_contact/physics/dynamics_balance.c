@@ -8,19 +8,18 @@
 /* Momentum, and energy of motion: v M v / 2 */
 static void add_motion(const Physics *physics, const PetscScalar *u, const PetscScalar *v, Balance *balance)
 {
-  const Cells    *cells = &physics->cells;
-  const Dynamics *d     = physics->dynamics;
-  for (PetscInt c = 0; c < cells->n; c++) {
-    const PetscInt n = cells->offsets[c + 1] - cells->offsets[c], *dofs = cells->dofs + cells->offsets[c];
-    if (d->first[c] < 0) continue;
+  const Dynamics *d = physics->dynamics;
+  for (PetscInt c = 0; c < physics->cells.n; c++) {
+    const CellMass *mass = &d->cells[c];
+    const PetscInt  n = mass->n, *dofs = mass->dofs;
     for (PetscInt a = 0; a < n; a++) {
       PetscReal p[3] = {0, 0, 0}, x[3];
       for (PetscInt b = 0; b < n; b++) {
         for (int i = 0; i < 3; i++)
-          p[i] += d->mass[d->first[c] + n * a + b] * PetscRealPart(v[dofs[b] + i]);
+          p[i] += mass->m[n * a + b] * PetscRealPart(v[dofs[b] + i]);
       }
       for (int i = 0; i < 3; i++) {
-        x[i] = cells->X[3 * (cells->offsets[c] + a) + i] + PetscRealPart(u[dofs[a] + i]);
+        x[i] = mass->X[3 * a + i] + PetscRealPart(u[dofs[a] + i]);
         balance->kinetic += 0.5 * PetscRealPart(v[dofs[a] + i]) * p[i];
         balance->momentum[i] += p[i];
       }
@@ -38,7 +37,7 @@ static void add_strain(const Physics *physics, const PetscScalar *u, Balance *ba
     const PetscInt first = cells->offsets[c], n = cells->offsets[c + 1] - first;
     const Element  element = bulk_element(physics, c);
     PetscReal      u_cell[3 * CELL_NODES];
-    if (d->first[c] < 0) continue;
+    if (!d->cells[c].n) continue;
     for (PetscInt k = 0; k < 3 * n; k++)
       u_cell[k] = PetscRealPart(u[cells->dofs[first + k / 3] + k % 3]);
     balance->strain += cell_energy(&element, u_cell);

@@ -15,7 +15,7 @@ static PetscErrorCode start(Physics *physics)
   PetscCall(VecGetArray(d->v, &v));
   for (PetscInt c = 0; c < cells->n; c++) {
     const PetscReal *motion = d->velocity + MOTION_NUMBERS * cells->body[c], *spin = motion + 3;
-    if (d->first[c] < 0) continue;
+    if (!d->cells[c].n) continue;
     for (PetscInt k = cells->offsets[c]; k < cells->offsets[c + 1]; k++) {
       PetscReal arm[3];
       for (int i = 0; i < 3; i++)
@@ -94,6 +94,7 @@ PetscErrorCode dynamics_create(Scene *scene, Physics *physics)
     PetscCall(VecZeroEntries(*vectors[k]));
   }
   PetscCall(mass_create(physics));
+  if (d->spread) PetscCall(mass_spread(scene, physics));
   for (PetscInt c = 0; c < physics->cells.n; c++) {
     for (PetscInt r = 0; r < physics->n_rigids; r++)
       if (physics->cells.body[c] == physics->rigids[r].body) physics->rigids[r].part = physics->cells.part[c];
@@ -142,8 +143,7 @@ PetscErrorCode dynamics_destroy(Physics *physics)
   PetscCall(MatDestroy(&d->matrix));
   PetscCall(KSPDestroy(&d->solver));
   PetscCall(PetscFree(d->velocity));
-  PetscCall(PetscFree(d->first));
-  PetscCall(PetscFree(d->mass));
+  PetscCall(mass_destroy(physics));
   PetscCall(PetscFree(d->entries));
   PetscCall(PetscFree(physics->dynamics));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -3,6 +3,7 @@
  * along lines that turn with it.
  *
  * This chooses where Newton's method starts, not what it solves. */
+#include "physics/dynamics.h"
 #include "solve/solve.h"
 
 /* From this turn in a step on [rad]: below, lines strain by 1e-6. */
@@ -137,7 +138,7 @@ static PetscErrorCode place(const Physics *physics, const States *states, const 
   PetscFunctionBegin;
   for (PetscInt c = 0; c < cells->n; c++) {
     const Motion motion = motion_of(&sums[cells->part[c]]);
-    if (!physics->materials[cells->body[c]].law->finite || motion.angle < TURNS) continue;
+    if (!physics->materials[cells->body[c]].law->finite || motion.angle < TURNS || physics->mesh->space.kind == SPACE_AXISYMMETRIC) continue; /* a ring does not turn */
     for (PetscInt k = cells->offsets[c]; k < cells->offsets[c + 1]; k++) {
       PetscReal x[3], d[3];
       if (look_at(physics, states, k, x, d)) carry_on(&motion, factor, cells->X + 3 * k, x, d, u + cells->dofs[k]);
@@ -156,7 +157,7 @@ PetscErrorCode turn_on(const Solve *solve, const Past *past, PetscReal factor, V
   Sums          *sums;
   PetscScalar   *u;
   PetscFunctionBegin;
-  if (!physics->dynamics || solve->mesh->space.kind == SPACE_AXISYMMETRIC) PetscFunctionReturn(PETSC_SUCCESS); /* a ring does not turn */
+  if (!physics->dynamics) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscCalloc1(physics->parts.n, &sums));
   PetscCall(VecDuplicate(physics->u_local, &last));
   PetscCall(VecDuplicate(physics->u_local, &before));
@@ -172,6 +173,7 @@ PetscErrorCode turn_on(const Solve *solve, const Past *past, PetscReal factor, V
   PetscCall(VecGetArray(now, &u));
   PetscCall(add_up(physics, &states, sums));
   PetscCall(place(physics, &states, sums, factor, u));
+  mass_follow(physics, states.last, u);
   PetscCall(VecRestoreArray(now, &u));
   PetscCall(VecRestoreArrayRead(before, &states.before));
   PetscCall(VecRestoreArrayRead(last, &states.last));
