@@ -17,6 +17,8 @@ SPIN_ENERGY, SPIN_MOMENT = 1e-11, 1e-12
 STRAINED_BOUND = 1e-11
 # With rho_inf below 1 energy is not what the scheme lets fall.
 GAIN_BOUND = 0.01
+# What the driver tells from on.
+TOLD = 0.01
 # Of an observed order, on two halvings.
 ORDER_BOUND = 0.1
 # The same run in another way.
@@ -169,6 +171,10 @@ def dissipates(verdicts, driver):
         block = spin("plane_strain", 4, 0.3, 133, material=law)
         table = energy(run(driver, "dissipates", block, "-dynamics_rho_inf", "0.8", label=f"dissipates_{law}"))
         verdicts.below(f"{law} spins, rho_inf 0.8: a gain", total(table).max() / total(table)[0] - 1, GAIN_BOUND, "0.1 and more by stresses of the mean place")
+        told = run(driver, "gains", spin("plane_strain", 4, 0.72, 56, material=law), "-dynamics_rho_inf", "0.9", label=f"gains_{law}", expect=None)
+        table = energy(told)
+        verdicts.at_least(f"{law} spins by 0.72 a step, rho_inf 0.9: what it gains", table["numerical"].max() / total(table)[0], TOLD, "of its energy: too much")
+        verdicts.true(f"{law} spins by 0.72 a step, rho_inf 0.9: it is told", "numerical" in told.summary["energy_told"] and "With rho_inf below 1" in told.text, "with its cause")
 
 
 def tangents(verdicts, driver):
@@ -181,7 +187,7 @@ def tangents(verdicts, driver):
     damping = ("-dynamics_stiffness_damping", "0.02", "-dynamics_mass_damping", "0.5")
     for law in LAWS:
         both = ("-upper_material", law, "-lower_material", law)
-        for label, options in {"": (), ", mean": ("-upper_dilatation", "mean"), ", damped": damping, ", rho_inf 0.5, mean, damped": ("-dynamics_rho_inf", "0.5", "-upper_dilatation", "mean", *damping)}.items():
+        for label, options in {"": (), ", mean": ("-upper_dilatation", "mean"), ", damped": damping, ", beside a linear body, damped": ("-lower_material", "linear", *damping), ", rho_inf 0.5, mean, damped": ("-dynamics_rho_inf", "0.5", "-upper_dilatation", "mean", *damping)}.items():
             result = run(driver, "tangents", scene, "-test_jacobian_blocks", *both, *options, label=f"tangents_{law}" + label.replace(" ", "_").replace(",", ""))
             tests = [test for step in result.steps for test in step["jacobian_tests"] if test["switches"] == 0]
             errors = [part["error"] / part["norm"] for test in tests for part in test["blocks"] if part["norm"]]
