@@ -12,6 +12,8 @@
  * and v' = 2 (u' - u) / dt - v + (gamma - 2 beta) dt (a' - a). With rho_inf = 1 all terms of accelerations vanish: the midpoint rule.
  * Why energy does not grow then: docs/dynamics.md. Damping takes the velocity without its last term.
  *
+ * Bodies of finite strain have no f(u_a): their forces are of both ends of the step (elasticity_step.c).
+ *
  * Where displacements are prescribed v' and a' are what the supports say, and take part with (v' - v) / dt - (gamma - 2 beta) (a' - a) for
  * (2 / dt^2) (u' - u - dt v), which is the same of free ones. */
 #include "physics/dynamics.h"

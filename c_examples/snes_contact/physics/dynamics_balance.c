@@ -1,6 +1,6 @@
 /* The end of a step: velocities, and what the scheme says of energy and momentum. Work is force times displacement of the step; all
  * forces are those of the residual; inertia of what supports move works with the mean of both velocities, for a jump of the velocity is an
- * impulse that acts while it jumps. So with rho_inf = 1 and linear bodies the sum holds to rounding and Newton's tolerance:
+ * impulse that acts while it jumps. So with rho_inf = 1 the sum holds to rounding and Newton's tolerance:
  *
  *   kinetic + strain = those at t = 0 + work of loads, supports and contact - damping. */
 #include "physics/dynamics.h"
@@ -252,7 +252,7 @@ static PetscErrorCode massless_moves(const Physics *physics, PetscBool *moves)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* By rho_inf below 1, or finite strain. */
+/* By rho_inf below 1; else what Newton's method leaves. */
 PetscReal dynamics_numerical(const Dynamics *d, const Balance *balance)
 {
   return (balance->kinetic - d->start.kinetic) + (balance->strain - d->start.strain) - balance->external - balance->supports - balance->contact +
