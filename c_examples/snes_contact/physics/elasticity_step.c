@@ -23,11 +23,8 @@ typedef struct {
 /* E at a place; false: there is none in plane stress */
 static PetscBool strain_at(const StepPoints *points, PetscInt q, PetscReal tau, PetscReal E[9])
 {
-  PetscReal end[9];
-  green_strain(points->before[q].H, E);
-  green_strain(points->after[q].H, end);
   for (int k = 0; k < 9; k++)
-    E[k] += tau * (end[k] - E[k]);
+    E[k] = points->start[q][k] + tau * (points->end[q][k] - points->start[q][k]);
   return (PetscBool)(points->element->space->kind != SPACE_PLANE_STRESS || plane_stress_strain(points->element->material, E));
 }
 
@@ -113,14 +110,20 @@ static PetscErrorCode add_elastic(const StepPoints *points, PetscReal f[], Petsc
 PetscErrorCode cell_step_forces(const Element *element, const CellStep *step, PetscBool damping_only, PetscReal f[], PetscReal K[], PetscBool *inverted)
 {
   const PetscInt n      = 3 * cell_nodes(element->kind);
-  StepPoints     points = {.element = element, .step = step};
+  StepPoints     points; /* not all of it is used, nor set */
   PetscReal      mean;
   PetscFunctionBeginHot;
+  points.element = element;
+  points.step    = step;
   PetscCall(PetscArrayzero(f, n));
   if (K) PetscCall(PetscArrayzero(K, n * n));
   *inverted = (PetscBool)(!cell_points(element, step->from, points.before, &points.n, &mean, &points.whole) ||
                           !cell_points(element, step->to, points.after, &points.n, &mean, &points.whole));
   if (*inverted) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt q = 0; q < points.n; q++) {
+    green_strain(points.before[q].H, points.start[q]);
+    green_strain(points.after[q].H, points.end[q]);
+  }
   if (!damping_only) PetscCall(add_elastic(&points, f, K, inverted));
   if (step->rate) step_add_damping(&points, f, K);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -9,6 +9,7 @@ typedef struct {
   PetscInt        n;
   PetscReal       whole; /* its volume */
   Point           before[CELL_POINTS], after[CELL_POINTS];
+  PetscReal       start[CELL_POINTS][9], end[CELL_POINTS][9]; /* E */
 } StepPoints;
 
 /* At a point: P = F S, and dP/dF' = F (dS/dE) R + part S, where dE = sym(R^T dF') */

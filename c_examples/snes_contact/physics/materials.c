@@ -143,9 +143,14 @@ static void st_venant_kirchhoff_second_stress(const Material *material, const Pe
     V[k] = (k % 4 == 0);
     S[k] = 2 * G * E[k] + p * V[k];
   }
-  for (int n = 0; n < 81 && D; n++) {
-    const int i = n / 27, j = n / 9 % 3, k = n / 3 % 3, l = n % 3;
-    D[n]        = G * ((i == k && j == l) + (i == l && j == k)) + dp * V[3 * i + j] * V[3 * k + l];
+  if (!D) return;
+  for (int i = 0; i < 3; i++) {
+    for (int j = 0; j < 3; j++) {
+      for (int k = 0; k < 3; k++) {
+        for (int l = 0; l < 3; l++)
+          D[9 * (3 * i + j) + 3 * k + l] = G * ((i == k && j == l) + (i == l && j == k)) + dp * V[3 * i + j] * V[3 * k + l];
+      }
+    }
   }
 }
 
@@ -226,10 +231,15 @@ static void neo_hooke_second_stress(const Material *material, const PetscReal E[
     V[k]                 = J * inverse[k];
     S[k]                 = G * less + p * V[k];
   }
-  for (int n = 0; n < 81 && D; n++) {
-    const int i = n / 27, j = n / 9 % 3, k = n / 3 % 3, l = n % 3;
-    D[n]        = (G - p * J) * (inverse[3 * i + k] * inverse[3 * j + l] + inverse[3 * i + l] * inverse[3 * j + k]) +
-           (p / J + dp) * V[3 * i + j] * V[3 * k + l];
+  if (!D) return;
+  for (int i = 0; i < 3; i++) {
+    for (int j = i; j < 3; j++) {
+      for (int k = 0; k < 3; k++) {
+        for (int l = 0; l < 3; l++)
+          D[9 * (3 * i + j) + 3 * k + l] = D[9 * (3 * j + i) + 3 * k + l] =
+              (G - p * J) * (inverse[3 * i + k] * inverse[3 * j + l] + inverse[3 * i + l] * inverse[3 * j + k]) + (p / J + dp) * V[3 * i + j] * V[3 * k + l];
+      }
+    }
   }
 }
 
