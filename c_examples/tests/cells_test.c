@@ -145,7 +145,8 @@ static void test_stiffness(CellKind kind, const Space *space, const MaterialLaw 
 {
   const PetscInt n = 3 * cell_nodes(kind);
   const Material m = {.young = 3, .poisson = 0.3, .law = law, .mean_dilatation = mean};
-  static double  X[81], u[81], f[81], high[81], low[81], K[81 * 81];
+  static double  X[81], u[81], f[81], high[81], low[81], K[81 * 81], swell[27];
+  const Element  element = {.kind = kind, .space = space, .material = &m, .X = X, .swell = swell};
   const double   size  = m.young * space_measure(space, RADIUS);
   double         error = 0, asymmetry = 0;
   char           what[80];
@@ -153,14 +154,16 @@ static void test_stiffness(CellKind kind, const Space *space, const MaterialLaw 
   curved_cell(kind, space, 0.05, X);
   for (PetscInt k = 0; k < n; k++)
     u[k] = is_unknown(kind, k) ? 0.05 * pseudo_random() : 0;
-  if (cell_forces(kind, space, &m, X, u, f, K, &inverted) || inverted) failures++;
+  for (PetscInt a = 0; a < cell_nodes(kind); a++)
+    swell[a] = law->finite ? 0.05 * pseudo_random() : 0;
+  if (cell_forces(&element, u, f, K, &inverted) || inverted) failures++;
   for (PetscInt k = 0; k < n; k++) {
     const double value = u[k];
     if (!is_unknown(kind, k)) continue;
     u[k] = value + STEP;
-    if (cell_forces(kind, space, &m, X, u, high, NULL, &inverted) || inverted) any = PETSC_TRUE;
+    if (cell_forces(&element, u, high, NULL, &inverted) || inverted) any = PETSC_TRUE;
     u[k] = value - STEP;
-    if (cell_forces(kind, space, &m, X, u, low, NULL, &inverted) || inverted) any = PETSC_TRUE;
+    if (cell_forces(&element, u, low, NULL, &inverted) || inverted) any = PETSC_TRUE;
     u[k] = value;
     for (PetscInt j = 0; j < n; j++) {
       error = fmax(error, fabs(K[n * j + k] - (high[j] - low[j]) / (2 * STEP)));
@@ -174,6 +177,150 @@ static void test_stiffness(CellKind kind, const Space *space, const MaterialLaw 
   check_in(kind, space, what, asymmetry / size, ROUNDING_BOUND);
 }
 
+/* Work of a step over the strain energy of a cell: rounding, and what four points leave of the mean of neo-Hooke's stress, whose step is small. */
+static const double WORK_BOUND = 1e-11, SMALL_STEP = 0.01;
+/* A small strain, and what its square may be of it in a small cell. */
+static const double TINY = 1e-8, SQUARED = 1e-6;
+
+/* A step of `dynamics`: forces that work what the energy changes by, their derivatives, and none where nothing moves but the static ones. */
+static void test_step(CellKind kind, const Space *space, const MaterialLaw *law, PetscBool mean, double alpha_f, PetscBool damped)
+{
+  const PetscInt n = 3 * cell_nodes(kind);
+  const Material m = {.young = 3, .poisson = 0.3, .law = law, .mean_dilatation = mean};
+  static double  X[81], from[81], to[81], rate[81], still[81], f[81], high[81], low[81], K[81 * 81];
+  const Element  element = {.kind = kind, .space = space, .material = &m, .X = X};
+  const double   size = m.young * space_measure(space, RADIUS), ahead = 0.7, change = law == &MATERIAL_NEO_HOOKE ? SMALL_STEP : 0.05;
+  CellStep       step = {.from = from, .to = to, .rate = damped ? rate : NULL, .alpha_f = alpha_f, .ahead = ahead};
+  double         error = 0, work = 0;
+  char           what[96];
+  PetscBool      inverted, any = PETSC_FALSE;
+  curved_cell(kind, space, 0.05, X);
+  for (PetscInt k = 0; k < n; k++) {
+    from[k] = is_unknown(kind, k) ? 0.05 * pseudo_random() : 0;
+    to[k]   = is_unknown(kind, k) ? from[k] + change * pseudo_random() : 0;
+    still[k] = is_unknown(kind, k) ? 0.1 * pseudo_random() : 0;
+    rate[k] = still[k] + ahead * to[k];
+  }
+  if (cell_step_forces(&element, &step, PETSC_FALSE, f, K, &inverted) || inverted) failures++;
+  for (PetscInt k = 0; k < n; k++)
+    work += f[k] * (to[k] - from[k]);
+  for (PetscInt k = 0; k < n; k++) {
+    const double value = to[k];
+    if (!is_unknown(kind, k)) continue;
+    for (int side = 0; side < 2; side++) {
+      to[k]   = value + (side ? -STEP : STEP);
+      rate[k] = still[k] + ahead * to[k];
+      if (cell_step_forces(&element, &step, PETSC_FALSE, side ? low : high, NULL, &inverted) || inverted) any = PETSC_TRUE;
+    }
+    to[k]   = value;
+    rate[k] = still[k] + ahead * to[k];
+    for (PetscInt j = 0; j < n; j++)
+      error = fmax(error, is_unknown(kind, j) ? fabs(K[n * j + k] - (high[j] - low[j]) / (2 * STEP)) : 0);
+  }
+  failures += any;
+  snprintf(what, sizeof(what), "%s, %s, alpha_f %g%s: derivatives of a step", law->name, mean ? "mean" : "pointwise", alpha_f, damped ? ", damped" : "");
+  check_in(kind, space, what, error / size, DIFFERENCE_BOUND);
+  if (damped) return;
+  if (alpha_f == 0.5) {
+    const double stored = cell_energy(&element, to) - cell_energy(&element, from);
+    snprintf(what, sizeof(what), "%s, %s: the work of a step is the energy", law->name, mean ? "mean" : "pointwise");
+    check_in(kind, space, what, fabs(work - stored) / (cell_energy(&element, to) + cell_energy(&element, from)), WORK_BOUND);
+  }
+  step.from = to;
+  if (cell_step_forces(&element, &step, PETSC_FALSE, f, NULL, &inverted) || cell_forces(&element, to, high, NULL, &inverted)) failures++;
+  error = 0;
+  for (PetscInt j = 0; j < n; j++)
+    error = fmax(error, is_unknown(kind, j) ? fabs(f[j] - high[j]) : 0);
+  snprintf(what, sizeof(what), "%s, %s, alpha_f %g: a step that moves nothing", law->name, mean ? "mean" : "pointwise", alpha_f);
+  check_in(kind, space, what, error / size, ROUNDING_BOUND);
+}
+
+/* A turn about z at the mean place has no damping; a small strain that of linear bodies. */
+static void test_damping(CellKind kind, const Space *space, const MaterialLaw *law, PetscBool mean)
+{
+  const PetscInt n = 3 * cell_nodes(kind);
+  const Material m = {.young = 3, .poisson = 0.3, .law = law, .mean_dilatation = mean};
+  Material       linear = m;
+  static double  X[81], still[81], to[81], f[81], exact[81];
+  const Element  element = {.kind = kind, .space = space, .material = &m, .X = X};
+  const Element  likeness = {.kind = kind, .space = space, .material = &linear, .X = X};
+  const CellStep step = {.from = still, .to = to, .rate = to, .alpha_f = 0.5};
+  const double   size = m.young * space_measure(space, RADIUS), angle = 0.7;
+  double         error = 0;
+  char           what[96];
+  PetscBool      inverted;
+  linear.law = &MATERIAL_LINEAR;
+  curved_cell(kind, space, 0.05, X);
+  for (PetscInt k = 0; k < n; k++)
+    to[k] = is_unknown(kind, k) ? TINY * pseudo_random() : 0;
+  if (cell_step_forces(&element, &step, PETSC_TRUE, f, NULL, &inverted) || cell_forces(&likeness, to, exact, NULL, &inverted)) failures++;
+  for (PetscInt k = 0; k < n; k++)
+    error = fmax(error, is_unknown(kind, k) ? fabs(f[k] - exact[k]) : 0);
+  snprintf(what, sizeof(what), "%s, %s: damping of small strains", law->name, mean ? "mean" : "pointwise");
+  check_in(kind, space, what, error / size / TINY, SQUARED);
+  if (space->kind == SPACE_AXISYMMETRIC) return;
+  for (PetscInt k = 0; k < n; k += 3) {
+    to[k]     = (cos(angle) - 1) * X[k] - sin(angle) * X[k + 1];
+    to[k + 1] = sin(angle) * X[k] + (cos(angle) - 1) * X[k + 1];
+    to[k + 2] = 0;
+  }
+  error = 0;
+  if (cell_step_forces(&element, &step, PETSC_TRUE, f, NULL, &inverted)) failures++;
+  for (PetscInt k = 0; k < n; k++)
+    error = fmax(error, is_unknown(kind, k) ? fabs(f[k]) : 0);
+  snprintf(what, sizeof(what), "%s, %s: a turn is not damped", law->name, mean ? "mean" : "pointwise");
+  check_in(kind, space, what, error / size, ROUNDING_BOUND);
+}
+
+/* A free body that is warm grows, and is without stress: closed form. Held, it has that of F_e = I / theta. */
+static void test_swell(CellKind kind, const Space *space, const MaterialLaw *law, PetscBool mean)
+{
+  const PetscInt n = 3 * cell_nodes(kind);
+  const Material m = {.young = 3, .poisson = 0.3, .law = law, .mean_dilatation = mean};
+  static double  X[81], u[81], f[81], swell[27], s[9];
+  const Element  element = {.kind = kind, .space = space, .material = &m, .X = X, .swell = swell};
+  const double   size = m.young * space_measure(space, RADIUS), grown = 0.1, e = 1 / (1 + grown);
+  const double   G = m.young / (2 * (1 + m.poisson)), lambda = 2 * G * m.poisson / (1 - 2 * m.poisson), E = (e * e - 1) / 2;
+  const double   held = law == &MATERIAL_NEO_HOOKE ? (G * (e * e - 1) + 3 * lambda * log(e)) / (e * e * e) : (2 * G + 3 * lambda) * E / e;
+  double         error = 0;
+  char           what[96];
+  PetscBool      inverted;
+  curved_cell(kind, space, 0.05, X);
+  for (PetscInt a = 0; a < cell_nodes(kind); a++)
+    swell[a] = grown;
+  for (PetscInt k = 0; k < n; k++)
+    u[k] = is_unknown(kind, k) ? grown * X[k] : 0;
+  if (space->kind != SPACE_PLANE_STRAIN) {
+    if (cell_forces(&element, u, f, NULL, &inverted) || inverted) failures++;
+    for (PetscInt k = 0; k < n; k++)
+      error = fmax(error, fabs(f[k]));
+    snprintf(what, sizeof(what), "%s, %s: warm and free, no stress", law->name, mean ? "mean" : "pointwise");
+    check_in(kind, space, what, error / size, ROUNDING_BOUND);
+  }
+  if (space->kind == SPACE_PLANE_STRESS) return;
+  for (PetscInt k = 0; k < n; k++)
+    u[k] = 0;
+  cell_centre_stress(&element, u, s);
+  for (int k = 0; k < 9; k++)
+    s[k] -= k % 4 ? 0 : held;
+  error = 0;
+  for (int k = 0; k < 9; k++)
+    error = fmax(error, fabs(s[k]));
+  snprintf(what, sizeof(what), "%s, %s: warm and held, Cauchy's stress", law->name, mean ? "mean" : "pointwise");
+  check_in(kind, space, what, error / m.young, ROUNDING_BOUND);
+}
+
+static void test_finite(CellKind kind, const Space *space, const MaterialLaw *law, PetscBool mean)
+{
+  if (!law->finite) return;
+  for (int k = 0; k < 3; k++) {
+    test_step(kind, space, law, mean, 0.25 * k, PETSC_FALSE);
+    test_step(kind, space, law, mean, 0.25 * k, PETSC_TRUE);
+  }
+  test_damping(kind, space, law, mean);
+  test_swell(kind, space, law, mean);
+}
+
 /* Rigid motions are without energy, and nothing else: there are points enough. A ring has one, along its axis. */
 static void test_rank(CellKind kind, const Space *space)
 {
@@ -182,11 +329,12 @@ static void test_rank(CellKind kind, const Space *space)
   const Material   m       = {.young = 1, .poisson = 0.3, .law = &MATERIAL_LINEAR};
   const double     u[81]   = {0};
   static double    X[81], f[81], K[81 * 81], values[81], work[1024];
+  const Element    element = {.kind = kind, .space = space, .material = &m, .X = X};
   PetscBLASInt     n = 0, length = 1024, info;
   PetscBool        inverted;
   int              n_free = 0, entry = 0;
   curved_cell(kind, space, 0, X);
-  if (cell_forces(kind, space, &m, X, u, f, K, &inverted)) failures++;
+  if (cell_forces(&element, u, f, K, &inverted)) failures++;
   for (PetscInt k = 0; k < all * all; k++) {
     if (is_unknown(kind, k / all) && is_unknown(kind, k % all)) K[entry++] = K[k];
     n += k < all && is_unknown(kind, k);
@@ -203,6 +351,7 @@ static void test_layer(const MaterialLaw *law)
   const Space    plane = {SPACE_PLANE_STRAIN, 0.7}, solid = {SPACE_SOLID, 1};
   const Material m     = {.young = 3, .poisson = 0.3, .law = law, .mean_dilatation = PETSC_TRUE};
   double         X[24], u[24], f[12], whole[24], error = 0;
+  const Element  element = {.kind = QUAD4, .space = &plane, .material = &m, .X = X}, layer = {.kind = HEX8, .space = &solid, .material = &m, .X = X};
   PetscBool      inverted;
   curved_cell(QUAD4, &plane, 0.1, X);
   for (int k = 0; k < 12; k++) {
@@ -210,8 +359,8 @@ static void test_layer(const MaterialLaw *law)
     u[12 + k] = u[k];
     X[12 + k] = X[k] + (k % 3 == 2 ? plane.thickness : 0);
   }
-  if (cell_forces(QUAD4, &plane, &m, X, u, f, NULL, &inverted) || inverted) failures++;
-  if (cell_forces(HEX8, &solid, &m, X, u, whole, NULL, &inverted) || inverted) failures++;
+  if (cell_forces(&element, u, f, NULL, &inverted) || inverted) failures++;
+  if (cell_forces(&layer, u, whole, NULL, &inverted) || inverted) failures++;
   for (int k = 0; k < 12; k++)
     error = fmax(error, k % 3 < 2 ? fabs(f[k] - whole[k] - whole[12 + k]) : 0);
   check_in(QUAD4, &plane, law->name, error / m.young, ROUNDING_BOUND);
@@ -223,12 +372,13 @@ static void test_plane_stress(const MaterialLaw *law)
   const Space    space = {SPACE_PLANE_STRESS, 0.7};
   const Material m     = {.young = 3, .poisson = 0.3, .law = law};
   double         X[12], u[12] = {0}, s[9];
+  const Element  element = {.kind = QUAD4, .space = &space, .material = &m, .X = X};
   curved_cell(QUAD4, &space, 0, X);
   for (int a = 0; a < 4; a++) {
     u[3 * a]     = 0.1 * X[3 * a];
     u[3 * a + 1] = -0.03 * X[3 * a + 1];
   }
-  cell_centre_stress(QUAD4, &space, &m, X, u, s);
+  cell_centre_stress(&element, u, s);
   check_in(QUAD4, &space, law->name, fabs(s[8]) / m.young, ROUNDING_BOUND);
   if (law->finite) return;
   check_in(QUAD4, &space, "a bar has Young's modulus", fabs(s[0] - 0.1 * m.young) + fabs(s[4]), ROUNDING_BOUND);
@@ -323,6 +473,7 @@ int main(int argc, char **argv)
       for (int k = 0; k < 2 * N_LAWS; k++) {
         if (k % 2 && space->kind == SPACE_PLANE_STRESS) continue;
         test_stiffness((CellKind)kind, space, LAWS[k / 2], (PetscBool)(k % 2));
+        test_finite((CellKind)kind, space, LAWS[k / 2], (PetscBool)(k % 2));
       }
     }
   }

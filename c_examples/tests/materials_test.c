@@ -94,6 +94,46 @@ static void test_derivatives(const Material *m)
   check(m->law->name, "dP/dF against differences of P", modulus_error / m->young, DIFFERENCE_BOUND);
 }
 
+static double largest_difference(int n, const double a[], const double b[])
+{
+  double largest = 0;
+  for (int k = 0; k < n; k++)
+    largest = fmax(largest, fabs(a[k] - b[k]));
+  return largest;
+}
+
+/* S and D of a strain: F S is P; D against differences of S, E_IJ and E_JI together as S has them. */
+static void test_second_stress(const Material *m)
+{
+  double H[9], P[9], E[9], S[9], V[9], D[81], FS[9] = {0}, high[9], low[9], p, dp, error = 0;
+  for (int k = 0; k < 9; k++)
+    H[k] = 0.3 * pseudo_random();
+  evaluate(m, H, P, NULL);
+  green_strain(H, E);
+  check(m->law->name, "v of a strain", fabs(m->law->volume_of_strain(E) - m->law->volume(H)), ROUNDING_BOUND);
+  m->law->pressure(m, m->law->volume_of_strain(E), &p, &dp);
+  m->law->second_stress(m, E, p, dp, S, V, D);
+  for (int k = 0; k < 27; k++)
+    FS[3 * (k / 9) + k % 3] += (H[k / 3] + (k / 9 == k / 3 % 3)) * S[3 * (k / 3 % 3) + k % 3];
+  check(m->law->name, "F S is P", largest_difference(9, FS, P) / m->young, ROUNDING_BOUND);
+  for (int k = 0; k < 9; k++) {
+    const int    transposed = 3 * (k % 3) + k / 3;
+    const double kept       = E[k];
+    double      *of[2]      = {high, low};
+    for (int side = 0; side < 2; side++) {
+      E[k] = E[transposed] = kept + (side ? -STEP : STEP);
+      m->law->pressure(m, m->law->volume_of_strain(E), &p, &dp);
+      m->law->second_stress(m, E, p, dp, of[side], V, NULL);
+    }
+    E[k] = E[transposed] = kept;
+    for (int j = 0; j < 9; j++) {
+      const double both = k == transposed ? D[9 * j + k] : D[9 * j + k] + D[9 * j + transposed];
+      error             = fmax(error, fabs(both - (high[j] - low[j]) / (2 * STEP)));
+    }
+  }
+  check(m->law->name, "dS/dE against differences of S", error / m->young, DIFFERENCE_BOUND);
+}
+
 /* x = R X with a rotation of two radians about a skew axis (Rodrigues) */
 static void rotation(double H[9])
 {
@@ -160,29 +200,22 @@ static void random_cell(int corners, double amount, double X[24], double u[24])
   }
 }
 
-static double largest_difference(int n, const double a[], const double b[])
-{
-  double largest = 0;
-  for (int k = 0; k < n; k++)
-    largest = fmax(largest, fabs(a[k] - b[k]));
-  return largest;
-}
-
 static void test_cell(Material m, PetscBool mean)
 {
   const char *kind   = mean ? "mean dilatation: " : "pointwise: ";
   double      X[24], u[24], f[24], K[576], high[24], low[24], error = 0, asymmetry = 0;
   char        what[80];
-  PetscBool   inverted, any = PETSC_FALSE;
+  PetscBool     inverted, any = PETSC_FALSE;
+  const Element element = {.kind = HEX8, .space = &SOLID, .material = &m, .X = X};
   m.mean_dilatation = mean;
   random_cell(8, 0.1, X, u);
-  if (cell_forces(HEX8, &SOLID, &m, X, u, f, K, &inverted) || inverted) failures++;
+  if (cell_forces(&element, u, f, K, &inverted) || inverted) failures++;
   for (int k = 0; k < 24; k++) {
     const double value = u[k];
     u[k]               = value + STEP;
-    if (cell_forces(HEX8, &SOLID, &m, X, u, high, NULL, &inverted) || inverted) any = PETSC_TRUE;
+    if (cell_forces(&element, u, high, NULL, &inverted) || inverted) any = PETSC_TRUE;
     u[k] = value - STEP;
-    if (cell_forces(HEX8, &SOLID, &m, X, u, low, NULL, &inverted) || inverted) any = PETSC_TRUE;
+    if (cell_forces(&element, u, low, NULL, &inverted) || inverted) any = PETSC_TRUE;
     u[k] = value;
     for (int j = 0; j < 24; j++) {
       error     = fmax(error, fabs(K[24 * j + k] - (high[j] - low[j]) / (2 * STEP)));
@@ -207,6 +240,7 @@ static void test_mean_is_pointwise(Material m)
   double    X[24], u[24], f[2][24], K[2][576], H[9];
   PetscBool inverted;
   for (int corners = 4; corners <= 8; corners += 4) {
+    const Element element = {.kind = corners == 4 ? TET4 : HEX8, .space = &SOLID, .material = &m, .X = X};
     random_cell(corners, 0.1, X, u);
     for (int k = 0; k < 9; k++)
       H[k] = 0.3 * pseudo_random();
@@ -214,7 +248,7 @@ static void test_mean_is_pointwise(Material m)
       u[k] = product(H + 3 * (k % 3), X + k - k % 3);
     for (int mean = 0; mean < 2; mean++) {
       m.mean_dilatation = (PetscBool)mean;
-      if (cell_forces(corners == 4 ? TET4 : HEX8, &SOLID, &m, X, u, f[mean], K[mean], &inverted) || inverted) failures++;
+      if (cell_forces(&element, u, f[mean], K[mean], &inverted) || inverted) failures++;
     }
     check(m.law->name,
           corners == 4 ? "tetrahedron: mean = pointwise, forces" : "homogeneous: mean = pointwise, forces",
@@ -231,10 +265,11 @@ static void test_inverted(Material m)
   double    X[24], u[24], f[24];
   PetscBool inverted;
   for (int corners = 4; corners <= 8; corners += 4) {
+    const Element element = {.kind = corners == 4 ? TET4 : HEX8, .space = &SOLID, .material = &m, .X = X};
     random_cell(corners, 0, X, u);
     for (int k = 3 * (corners - 4) + (corners == 4 ? 9 : 0); k < 3 * corners; k++)
       u[k] = k % 3 == 2 ? -2 : 0;
-    if (cell_forces(corners == 4 ? TET4 : HEX8, &SOLID, &m, X, u, f, NULL, &inverted)) failures++;
+    if (cell_forces(&element, u, f, NULL, &inverted)) failures++;
     check(m.law->name, corners == 4 ? "inverted tetrahedron is told" : "inverted hexahedron is told",
           inverted == m.law->finite ? 0 : 1, 0);
   }
@@ -246,6 +281,7 @@ int main(int argc, char **argv)
   for (int k = 0; k < N_LAWS; k++) {
     const Material m = {.young = 3, .poisson = 0.3, .law = LAWS[k]};
     test_derivatives(&m);
+    if (m.law->finite) test_second_stress(&m);
     if (m.law->finite) test_closed_forms(&m);
     test_cell(m, PETSC_FALSE);
     test_cell(m, PETSC_TRUE);

@@ -14,6 +14,8 @@ import acceptance  # noqa: E402
 from condensed import condensed, condensed_full  # noqa: E402
 from dual import dual, dual_full, dual_iterations  # noqa: E402
 from dynamics import dynamics  # noqa: E402
+from dynamics_finite import finite  # noqa: E402
+from dynamics_mass import mass  # noqa: E402
 from effect_checks import effects  # noqa: E402
 from friction_checks import friction  # noqa: E402
 from hosts import hosts  # noqa: E402
@@ -70,6 +72,8 @@ GROUPS = {
     "ironing": ironing,
     "ironing_full": ironing_full,  # four minutes; not among the tests
     "dynamics": dynamics,
+    "dynamics_finite": finite,
+    "dynamics_mass": mass,
     "laws": laws,
     "loads": loads,
     "materials": materials,

@@ -24,6 +24,7 @@ def heat(verdicts, driver):
     rubbing(verdicts, driver)
     over_time(verdicts, driver)
     expanding(verdicts, driver)
+    growing(verdicts, driver)
     refused(verdicts, driver)
 
 
@@ -196,6 +197,69 @@ def expanding(verdicts, driver):
         verdicts.near(f"{what}: heat", found["heat"]["interfaces"]["base"]["across"] / flux, 1, TURNS_BOUND, "closed form")
         verdicts.near(f"{what}: pressure", -found["interfaces"]["base"]["force"][2] / low, -1, TURNS_BOUND, "closed form")
         verdicts.at_least(f"{what}: turns", found["heat"]["turns"], 2, "they settle")
+
+
+def first_piola(law, theta, stretch, young, poisson):
+    """P along each axis of a body that would have the length theta, and has `stretch`: theta^2 P_e(F / theta)."""
+    shear = young / (2 * (1 + poisson))
+    lame = 2 * shear * poisson / (1 - 2 * poisson)
+    e = np.array(stretch) / theta
+    if law == "neo_hooke":
+        return theta**2 * (shear * (e - 1 / e) + lame * np.log(e.prod()) / e)
+    green = (e**2 - 1) / 2
+    return theta**2 * e * (2 * shear * green + lame * green.sum())
+
+
+# A body that is warmed by 200 and would grow by a tenth: what is held, in the axes x, y, z.
+WARM_SPACES = {
+    "solid": ("solid", "hex"), "solid, tet10": ("solid", "tet10"), "plane strain": ("plane_strain", "quad"), "plane stress": ("plane_stress", "quad"),
+    "a ring": ("axisymmetric", "quad9"),
+}
+
+
+def growing(verdicts, driver):
+    """Finite strain: what is free grows without stress; held all round, or along its length, it has the closed form's."""
+    grown, young, poisson = 1.1, 1000.0, 0.3
+    for law in ("neo_hooke", "st_venant_kirchhoff"):
+        for name, (model, cell) in WARM_SPACES.items():
+            d = 3 if model == "solid" else 2
+            along = "xyz"[d - 1]
+            for dilatation in ("pointwise", "mean")[: 1 if model == "plane_stress" else 2]:
+                for held in ("free", "along", "all round"):
+                    what = f"growing, {law}, {name}, {dilatation}, {held}"
+                    held_axes = {"free": "", "along": along, "all round": "xyz"[:d]}[held]
+                    if model == "axisymmetric" and held == "all round":
+                        continue
+                    symmetric = [axis for axis in "xyz"[:d] if not (model == "axisymmetric" and axis == "x")]
+                    scene = {"schema": 1, "model": model, "bodies": ["body"], "heat": {"initial": 20, "coupling": "two_way"},
+                             "body": {"type": "box", "lower": [0] * d, "upper": [1] * d, "cells": [2] * d, "cell": cell, "young": young, "poisson": poisson, "material": law,
+                                      "dilatation": dilatation, "conductivity": 1, "expansion": (grown - 1) / 200},
+                             "temperatures": ["warm"], "warm": {"surface": [f"body.{along}min", f"body.{along}max"], "value": 220},
+                             "supports": [f"low{axis}" for axis in symmetric] + [f"high{axis}" for axis in held_axes], "steps": {"count": 2},
+                             "probes": ["corner"], "corner": {"body": "body", "point": [1] * d}, "output": {"vtu": "last", "csv": "none"}}
+                    for axis in symmetric:
+                        scene[f"low{axis}"] = {"surface": f"body.{axis}min", "components": [axis]}
+                    for axis in held_axes:
+                        scene[f"high{axis}"] = {"surface": f"body.{axis}max", "components": [axis]}
+                    result = driver.run(write(scene, driver.output / "growing.yaml"), label=what.replace(" ", "_").replace(",", ""),
+                                        ranks=2 if name == "solid" else 1)
+                    stretch = [grown if axis not in held_axes else 1.0 for axis in "xyz"]
+                    if model == "plane_strain":
+                        stretch[2] = 1.0
+                    free = [k for k, axis in enumerate("xyz") if axis not in held_axes and not (model == "plane_strain" and k == 2)]
+                    low, high = 0.5, 2.0
+                    for _ in range(200):  # the stretch of what is free, in all its directions
+                        middle = (low + high) / 2
+                        for k in free:
+                            stretch[k] = middle
+                        low, high = (middle, high) if free and first_piola(law, grown, stretch, young, poisson)[free[0]] < 0 else (low, middle)
+                    there = np.array(result.steps[-1]["probes"]["corner"])[:d]
+                    verdicts.below(f"{what}: places", np.abs(there - (np.array(stretch)[:d] - 1)).max(), TURNS_BOUND, "closed form")
+                    area = np.pi if model == "axisymmetric" else 1  # reactions are of the undeformed face, with P
+                    for axis in held_axes:
+                        k = "xyz".index(axis)
+                        force = result.steps[-1]["reactions"][f"high{axis}"][k]
+                        verdicts.near(f"{what}: force along {axis}", force / (first_piola(law, grown, stretch, young, poisson)[k] * area), 1, TURNS_BOUND, "closed form")
 
 
 def refused(verdicts, driver):

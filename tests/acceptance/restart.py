@@ -120,6 +120,14 @@ def expanding():
     return scene
 
 
+def spread():
+    """A thrown block of finite strain, without masses at the contact."""
+    scene = thrown(1)
+    scene["upper"].update(material="neo_hooke", cells=[2, 2, 3], spin=[0, 1, 2])
+    scene["dynamics"]["contact_mass"] = "spread"
+    return scene
+
+
 WEAKENING = {"law": "weakening", "friction_after": 0.1, "critical_slip": 0.2}
 # Name, scene, options.
 SCENES = (
@@ -141,7 +149,9 @@ SCENES = (
     ("rigid, thrown", rigid_thrown(), ()),
     ("plane", plane(), ()),
     ("dynamics", thrown(0.7), ("-dynamics_stiffness_damping", 0.01)),
+    ("dynamics, finite strain", spread(), ("-dynamics_stiffness_damping", 0.01)),
     ("heat", expanding(), ()),
+    ("heat, finite strain", expanding(), ("-upper_material", "neo_hooke")),
     ("quadratic", pad(upper={"cell": "tet10"}, lower={"cell": "tet10"}, contact={"basis": "dual"}), ()),
     ("two interfaces", pad(bodies=["upper", "lower", "other"], other={**BOX, "lower": [1.3, 0.1, 0.02], "upper": [1.9, 0.9, 0.5], "cells": [2, 2, 1]},
                            grip={"surface": ["upper.zmax", "other.zmax"]}, interfaces=["contact", "second"],

@@ -1,11 +1,10 @@
-/* The bodies: conduction and storage of heat in each cell, what flows in through faces, and what cells expand by. In the
- * undeformed configuration, as the linear material is; stored heat by the implicit Euler method.
+/* The bodies: conduction and storage of heat in each cell, and what flows in through faces. In the undeformed configuration; stored heat by
+ * the implicit Euler method.
  *
  * leaves_a = int k dN_a . grad T + c N_a (T - T_n) / dt dV - int N_a q dA */
 #include "heat/heat.h"
 
-/* Gradients at a Gauss point of a cell, N, and the volume that it stands for. */
-static PetscReal at_point(CellKind kind, const Space *space, const PetscReal X[], PetscInt q, PetscReal N[],
+PetscReal conduction_point(CellKind kind, const Space *space, const PetscReal X[], PetscInt q, PetscReal N[],
                           PetscReal dN[][3], PetscReal *radius)
 {
   PetscReal xi[3], weight = cell_quadrature_point(kind, q, xi);
@@ -25,7 +24,7 @@ static void cell_matrices(CellKind kind, const Space *space, const Conductor *of
     K[k] = M[k] = 0;
   for (PetscInt q = 0; q < cell_quadrature_points(kind); q++) {
     PetscReal       N[CELL_NODES], dN[CELL_NODES][3], radius;
-    const PetscReal volume = at_point(kind, space, X, q, N, dN, &radius);
+    const PetscReal volume = conduction_point(kind, space, X, q, N, dN, &radius);
     for (PetscInt a = 0; a < n; a++) {
       for (PetscInt b = 0; b < n; b++) {
         for (int i = 0; i < 3; i++)
@@ -36,8 +35,7 @@ static void cell_matrices(CellKind kind, const Space *space, const Conductor *of
   }
 }
 
-/* of this rank's cell: its kind, and where its temperatures lie in a local vector */
-static PetscErrorCode look_at_cell(const Heat *heat, PetscInt c, CellKind *kind, PetscInt *n, PetscInt at[])
+PetscErrorCode conduction_cell(const Heat *heat, PetscInt c, CellKind *kind, PetscInt *n, PetscInt at[])
 {
   PetscInt nodes[CELL_NODES], cStart;
   PetscFunctionBegin;
@@ -62,7 +60,7 @@ static PetscErrorCode add_cells(Heat *heat, PetscReal dt, PetscScalar *leaves, H
     PetscInt         n, at[CELL_NODES];
     CellKind         kind;
     if (!(of->conductivity > 0)) continue;
-    PetscCall(look_at_cell(heat, c, &kind, &n, at));
+    PetscCall(conduction_cell(heat, c, &kind, &n, at));
     cell_matrices(kind, &heat->mesh->space, of, cells->X + 3 * cells->offsets[c], dt, K, M);
     for (PetscInt a = 0; a < n; a++) {
       for (PetscInt b = 0; b < n; b++) {
@@ -128,67 +126,5 @@ PetscErrorCode conduction_add(Heat *heat, PetscReal dt, PetscScalar *leaves, Hea
     if (heat->supports[k].flows) PetscCall(add_flow(heat, &heat->supports[k], section, coordinates, leaves));
   }
   PetscCall(VecRestoreArrayRead(vector, &coordinates));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* beta = E alpha / (1 - 2 nu), in plane stress E alpha / (1 - nu); 0 of a body that does not expand. */
-static PetscReal stiff_expansion(const Heat *heat, PetscInt c)
-{
-  const PetscInt  body     = heat->physics->cells.body[c];
-  const Material *material = &heat->physics->materials[body];
-  const PetscReal twice    = heat->mesh->space.kind == SPACE_PLANE_STRESS ? 1 : 2;
-  return heat->bodies[body].expansion * material->young / (1 - twice * material->poisson);
-}
-
-PetscErrorCode expansion_pressures(const Heat *heat, PetscInt c, PetscReal pressures[])
-{
-  const PetscReal    beta = heat->physics->mesh->bodies[heat->physics->cells.body[c]].rigid ? 0 : stiff_expansion(heat, c);
-  const PetscScalar *now;
-  PetscInt           n, at[CELL_NODES];
-  CellKind           kind;
-  PetscFunctionBegin;
-  PetscCall(look_at_cell(heat, c, &kind, &n, at));
-  PetscCall(VecGetArrayRead(heat->now, &now));
-  for (PetscInt a = 0; a < n; a++)
-    pressures[a] = beta * (PetscRealPart(now[at[a]]) - heat->initial);
-  PetscCall(VecRestoreArrayRead(heat->now, &now));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* f_a = int beta (T - T_0) dN_a dV, in a ring beta (T - T_0) N_a / r along it, too: what free expansion would be pushed by. */
-PetscErrorCode expansion_forces(Heat *heat)
-{
-  Physics           *physics = heat->physics;
-  const Cells       *cells   = &physics->cells;
-  const Space       *space   = &heat->mesh->space;
-  const PetscScalar *now;
-  PetscScalar       *forces;
-  PetscFunctionBegin;
-  PetscCall(VecZeroEntries(physics->f_thermal));
-  PetscCall(VecGetArrayRead(heat->now, &now));
-  PetscCall(VecGetArray(physics->f_thermal, &forces));
-  for (PetscInt c = 0; c < cells->n; c++) {
-    const PetscInt *dofs = cells->dofs + cells->offsets[c];
-    PetscInt        n, at[CELL_NODES];
-    PetscReal       beta;
-    CellKind        kind;
-    if (heat->bodies[cells->body[c]].expansion == 0) continue;
-    beta = stiff_expansion(heat, c);
-    PetscCall(look_at_cell(heat, c, &kind, &n, at));
-    for (PetscInt q = 0; q < cell_quadrature_points(kind); q++) {
-      PetscReal       N[CELL_NODES], dN[CELL_NODES][3], radius, warmer = 0;
-      const PetscReal volume = at_point(kind, space, cells->X + 3 * cells->offsets[c], q, N, dN, &radius);
-      for (PetscInt a = 0; a < n; a++)
-        warmer += N[a] * (PetscRealPart(now[at[a]]) - heat->initial);
-      for (PetscInt a = 0; a < n; a++) {
-        const PetscReal push = volume * beta * warmer;
-        for (int i = 0; i < 3; i++)
-          forces[dofs[a] + i] += push * dN[a][i];
-        if (space->kind == SPACE_AXISYMMETRIC) forces[dofs[a]] += push * N[a] / radius;
-      }
-    }
-  }
-  PetscCall(VecRestoreArray(physics->f_thermal, &forces));
-  PetscCall(VecRestoreArrayRead(heat->now, &now));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

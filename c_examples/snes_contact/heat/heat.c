@@ -69,10 +69,7 @@ PetscErrorCode heat_create(Heat *heat)
   PetscCall(VecSet(heat->before, heat->initial));
   PetscCall(VecCopy(heat->before, heat->now));
   PetscCall(VecDuplicate(heat->physics->u_local, &heat->wide));
-  if (heat->two_way) {
-    PetscCall(VecDuplicate(heat->physics->u_local, &heat->physics->f_thermal));
-    PetscCall(VecZeroEntries(heat->physics->f_thermal));
-  }
+  if (heat->two_way) PetscCall(expansion_create(heat));
   PetscCall(conduction_faces(heat));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -122,7 +119,7 @@ PetscErrorCode heat_begin(Heat *heat, PetscReal t)
     now[at] = heat->initial + (heat->supports[s].value - heat->initial) * curve_value(&heat->supports[s].curve, t);
   }
   PetscCall(VecRestoreArray(heat->now, &now));
-  if (heat->two_way) PetscCall(expansion_forces(heat));
+  if (heat->two_way) PetscCall(expansion_apply(heat));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -277,7 +274,7 @@ PetscErrorCode heat_solve(Heat *heat, PetscReal dt, PetscReal *change, PetscInt 
   PetscCall(VecDestroy(&leaves));
   PetscCall(VecDestroy(&step));
   PetscCall(VecDestroy(&x));
-  if (heat->two_way && !*status) PetscCall(expansion_forces(heat));
+  if (heat->two_way && !*status) PetscCall(expansion_apply(heat));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

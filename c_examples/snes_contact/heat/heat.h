@@ -75,8 +75,14 @@ PetscErrorCode heat_accept(Heat *heat);
 /* conduction.c: adds what bodies and supports of heat have to what leaves the vertices, and to the entries */
 PetscErrorCode conduction_add(Heat *heat, PetscReal dt, PetscScalar *leaves, HeatEntries *entries);
 PetscErrorCode conduction_faces(Heat *heat);
-PetscErrorCode expansion_forces(Heat *heat); /* into physics->f_thermal */
-/* of the nodes of this rank's cell: what its stress is less by for its temperature */
+/* gradients at a Gauss point of a cell, N, and the volume that it stands for */
+PetscReal      conduction_point(CellKind kind, const Space *space, const PetscReal X[], PetscInt q, PetscReal N[], PetscReal dN[][3], PetscReal *radius);
+/* of this rank's cell: its kind, and where its temperatures lie in a local vector */
+PetscErrorCode conduction_cell(const Heat *heat, PetscInt c, CellKind *kind, PetscInt *n, PetscInt at[]);
+/* expansion.c: by the temperatures of now: of linear bodies into physics->f_thermal, of finite strain into physics->cells.swell */
+PetscErrorCode expansion_create(Heat *heat);
+PetscErrorCode expansion_apply(Heat *heat);
+/* of the nodes of this rank's cell: what its stress is less by for its temperature; 0 of finite strain, whose stress has it */
 PetscErrorCode expansion_pressures(const Heat *heat, PetscInt cell, PetscReal pressures[]);
 /* across.c: the same of the interfaces */
 PetscErrorCode across_add(Heat *heat, PetscReal dt, PetscScalar *leaves, HeatEntries *entries, PetscInt *status);

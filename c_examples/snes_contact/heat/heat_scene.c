@@ -31,8 +31,6 @@ static PetscErrorCode read_bodies(Scene *scene, Heat *heat)
     if (of->conductivity > 0) any = PETSC_TRUE;
     if (of->expansion != 0 && !heat->two_way)
       scene_fail(scene, body->name, "expansion", "it needs `heat: {coupling: two_way}`.");
-    if (of->expansion != 0 && heat->physics->materials[b].law != &MATERIAL_LINEAR)
-      scene_fail(scene, body->name, "expansion", "only of the material `linear`.");
     if (of->capacity > 0 && !(of->conductivity > 0))
       scene_fail(scene, body->name, "heat_capacity", "it needs a conductivity: without one a body keeps its temperature.");
   }

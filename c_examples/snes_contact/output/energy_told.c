@@ -38,8 +38,11 @@ static PetscBool any_found_anew(const Contact *contact)
 /* What may be behind it, and what to do instead. */
 static const char *cause(const Output *output, int kind)
 {
+  if (kind == ENERGY_TIME && output->physics->dynamics->rho_inf < 1)
+    return "With rho_inf below 1 bodies of finite strain that turn by much in a step gain energy: take shorter steps, or rho_inf 1, which keeps it.";
   if (kind == ENERGY_TIME)
-    return "Bodies of finite strain keep their energy in short steps only: take shorter ones until `numerical` in energy.csv stays small.";
+    return "Energy is kept but for the twelfth power of what a step strains neo-Hooke by, and for what Newton's method leaves: take shorter steps, or a lower "
+           "-snes_rtol.";
   if (kind == ENERGY_IMPACT && any_found_anew(output->contact))
     return "Nodes that meet stop each other within a step, and their motion is lost; weights that are found anew take some on curved surfaces, too. See "
            "whether shorter steps and finer facets change it: contact_work and friction_dissipation in energy.csv.";

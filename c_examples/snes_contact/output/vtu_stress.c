@@ -47,16 +47,15 @@ static CellKind look_at(const Physics *physics, const Piece *piece, PetscInt c, 
 
 PetscErrorCode vtu_cell_stresses(FILE *file, const Heat *heat, const Physics *physics, const Piece *piece)
 {
-  const Cells *cells = &physics->cells;
-  PetscReal   *stresses;
+  PetscReal *stresses;
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(9 * piece->n_cells, &stresses));
   for (PetscInt k = 0; k < piece->n_cells; k++) {
     const PetscInt c = piece->cells[k];
     PetscReal      u[3 * CELL_NODES];
-    const CellKind kind = look_at(physics, piece, c, u);
-    cell_centre_stress(kind, &physics->mesh->space, &physics->materials[cells->body[c]], cells->X + 3 * cells->offsets[c], u,
-                       stresses + 9 * k);
+    const CellKind kind    = look_at(physics, piece, c, u);
+    const Element  element = bulk_element(physics, c);
+    cell_centre_stress(&element, u, stresses + 9 * k);
     if (heat->two_way) {
       PetscReal centre[3], N[CELL_NODES], dN[CELL_NODES][3], push[CELL_NODES];
       cell_centre(kind, centre);
@@ -110,8 +109,9 @@ PetscErrorCode vtu_nodal_stresses(FILE *file, const Heat *heat, const Physics *p
   for (PetscInt k = 0; k < piece->n_cells; k++) {
     const PetscInt c = piece->cells[k], first = cells->offsets[c];
     PetscReal      u[3 * CELL_NODES], of_cell[9 * CELL_NODES];
-    const CellKind kind = look_at(physics, piece, c, u);
-    cell_nodal_stresses(kind, &physics->mesh->space, &physics->materials[cells->body[c]], cells->X + 3 * first, u, of_cell);
+    const CellKind kind    = look_at(physics, piece, c, u);
+    const Element  element = bulk_element(physics, c);
+    cell_nodal_stresses(&element, u, of_cell);
     if (heat->two_way) {
       PetscReal push[CELL_NODES];
       PetscCall(expansion_pressures(heat, c, push));

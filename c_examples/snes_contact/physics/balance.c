@@ -83,9 +83,9 @@ PetscErrorCode parts_measure(Physics *physics)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* `flies`: a part has left all that it could touch. It has any rounding that it likes, and nothing that balances its load: then no
- * noise is allowed. */
-Judgement parts_judge(const Physics *physics, PetscReal rtol, PetscReal atol, PetscBool flies)
+/* `exact`: no noise is allowed. So it is where a part has left all that it could touch: it has any rounding that it likes, and nothing that
+ * balances its load. */
+Judgement parts_judge(const Physics *physics, PetscReal rtol, PetscReal atol, PetscBool exact)
 {
   Judgement judgement = {.balance = PETSC_TRUE, .relative = PETSC_TRUE, .drowned = -1, .hidden = -1};
   for (PetscInt p = 0; p < physics->parts.n; p++) {
@@ -93,7 +93,7 @@ Judgement parts_judge(const Physics *physics, PetscReal rtol, PetscReal atol, Pe
     const PetscReal most = PetscMax(part->faint, PetscMax(part->reference, part->felt));
     if (part->residual <= rtol * most) continue;
     judgement.relative = PETSC_FALSE;
-    if (!(part->residual <= PetscMax(atol, flies ? 0 : part->noise))) {
+    if (!(part->residual <= PetscMax(atol, exact ? 0 : part->noise))) {
       judgement.balance = PETSC_FALSE;
       if (part->residual <= rtol * TWICE * part->exerted) judgement.hidden = p;
     } else if (part->loads > 0 && part->residual > PetscMax(atol, DROWNED * PetscMax(part->reference, part->felt))) {

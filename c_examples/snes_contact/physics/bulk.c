@@ -15,16 +15,23 @@ static CellKind kind_of(const Physics *physics, PetscInt c)
   return cell_kind(physics->mesh->dimension, physics->cells.offsets[c + 1] - physics->cells.offsets[c]);
 }
 
+Element bulk_element(const Physics *physics, PetscInt c)
+{
+  const Cells   *cells = &physics->cells;
+  const PetscInt first = cells->offsets[c];
+  return (Element){.kind = kind_of(physics, c), .space = &physics->mesh->space, .material = &physics->materials[cells->body[c]],
+                   .X = cells->X + 3 * first, .swell = cells->swell ? cells->swell + first : NULL};
+}
+
 /* of a cell at rest: the largest diagonal entry */
-static PetscErrorCode cell_stiffness(const Physics *physics, const Material *material, CellKind kind, const PetscReal X[],
-                                     PetscReal *stiffness)
+static PetscErrorCode cell_stiffness(const Element *element, PetscReal *stiffness)
 {
   const PetscReal at_rest[3 * CELL_NODES] = {0};
-  const PetscInt  n                       = cell_nodes(kind);
+  const PetscInt  n                       = cell_nodes(element->kind);
   PetscReal       f[3 * CELL_NODES], K[9 * CELL_NODES * CELL_NODES];
   PetscBool       inverted;
   PetscFunctionBegin;
-  PetscCall(cell_forces(kind, &physics->mesh->space, material, X, at_rest, f, K, &inverted));
+  PetscCall(cell_forces(element, at_rest, f, K, &inverted));
   *stiffness = 0;
   for (PetscInt k = 0; k < 3 * n; k++)
     *stiffness = PetscMax(*stiffness, K[(3 * n + 1) * k]);
@@ -64,9 +71,10 @@ PetscErrorCode bulk_create(Physics *physics)
         cells->X[3 * (n_nodes + a) + i] = PetscRealPart(coordinates[at + i]);
     }
     cells->offsets[c - cStart + 1] = n_nodes + n;
-    if (!is_rigid(physics, c - cStart))
-      PetscCall(cell_stiffness(physics, &physics->materials[cells->body[c - cStart]], kind_of(physics, c - cStart),
-                               cells->X + 3 * n_nodes, &cells->stiffness[c - cStart]));
+    if (!is_rigid(physics, c - cStart)) {
+      const Element element = bulk_element(physics, c - cStart);
+      PetscCall(cell_stiffness(&element, &cells->stiffness[c - cStart]));
+    }
     n_nodes += n;
   }
   PetscCall(VecRestoreArrayRead(coordinate_vector, &coordinates));
@@ -125,17 +133,67 @@ static PetscReal squared_rounding(const Physics *physics, PetscInt c, PetscInt n
                       cells->stiffness[c]);
 }
 
-PetscErrorCode bulk_forces(Physics *physics, Vec f_local, PetscInt *status)
+/* Displacements that cells are asked at; of a step NULL in statics, and where it has none */
+typedef struct {
+  const BulkStep    *step;
+  const PetscScalar *u, *from, *to, *rate;
+} View;
+
+static PetscErrorCode look(const Physics *physics, const BulkStep *step, View *view)
+{
+  PetscFunctionBegin;
+  *view = (View){.step = step};
+  PetscCall(VecGetArrayRead(physics->u_local, &view->u));
+  if (!step) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecGetArrayRead(step->from, &view->from));
+  PetscCall(VecGetArrayRead(step->to, &view->to));
+  if (step->rate) PetscCall(VecGetArrayRead(step->rate, &view->rate));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode looked(const Physics *physics, View *view)
+{
+  PetscFunctionBegin;
+  if (view->rate) PetscCall(VecRestoreArrayRead(view->step->rate, &view->rate));
+  if (view->to) PetscCall(VecRestoreArrayRead(view->step->to, &view->to));
+  if (view->from) PetscCall(VecRestoreArrayRead(view->step->from, &view->from));
+  PetscCall(VecRestoreArrayRead(physics->u_local, &view->u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* u_cell: displacements at u_local; K: NULL: not wanted */
+static PetscErrorCode evaluate(const Physics *physics, PetscInt c, const View *view, PetscReal u_cell[], PetscReal f[], PetscReal K[], PetscBool *inverted)
+{
+  const Element element = bulk_element(physics, c);
+  PetscReal     from[3 * CELL_NODES], to[3 * CELL_NODES], rate[3 * CELL_NODES];
+  CellStep      of_cell;
+  PetscFunctionBegin;
+  cell_displacements(physics, c, view->u, u_cell);
+  if (!view->step || !element.material->law->finite) {
+    PetscCall(cell_forces(&element, u_cell, f, K, inverted));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  cell_displacements(physics, c, view->from, from);
+  cell_displacements(physics, c, view->to, to);
+  if (view->rate) cell_displacements(physics, c, view->rate, rate);
+  of_cell = (CellStep){.from = from, .to = to, .rate = view->rate ? rate : NULL, .alpha_f = view->step->alpha_f, .ahead = view->step->ahead};
+  PetscCall(cell_step_forces(&element, &of_cell, view->step->damping_only, f, K, inverted));
+  for (PetscInt k = 0; K && k < PetscSqr(3 * cell_nodes(element.kind)); k++)
+    K[k] /= view->step->linear;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode bulk_step_forces(Physics *physics, const BulkStep *step, Vec f_local, PetscInt *status)
 {
   const Cells       *cells = &physics->cells;
-  const PetscScalar *u;
+  View               view;
   PetscScalar       *f;
   PetscLogDouble     start, end;
   PetscInt           first_inverted = -1;
 
   PetscFunctionBegin;
   PetscCall(PetscTime(&start));
-  PetscCall(VecGetArrayRead(physics->u_local, &u));
+  PetscCall(look(physics, step, &view));
   PetscCall(VecGetArray(f_local, &f));
   for (PetscInt c = 0; c < cells->n && first_inverted < 0; c++) {
     const PetscInt *dofs = cells->dofs + cells->offsets[c],
@@ -143,9 +201,7 @@ PetscErrorCode bulk_forces(Physics *physics, Vec f_local, PetscInt *status)
     PetscReal u_cell[3 * CELL_NODES], f_cell[3 * CELL_NODES], *squares = physics->parts.squares + N_SQUARES * cells->part[c];
     PetscBool inverted;
     if (is_rigid(physics, c)) continue;
-    cell_displacements(physics, c, u, u_cell);
-    PetscCall(cell_forces(kind_of(physics, c), &physics->mesh->space, &physics->materials[cells->body[c]],
-                          cells->X + 3 * cells->offsets[c], u_cell, f_cell, NULL, &inverted));
+    PetscCall(evaluate(physics, c, &view, u_cell, f_cell, NULL, &inverted));
     if (inverted) first_inverted = c;
     squares[SQUARES_ROUNDING] += squared_rounding(physics, c, n, u_cell);
     for (PetscInt k = 0; k < 3 * n; k++) {
@@ -154,11 +210,18 @@ PetscErrorCode bulk_forces(Physics *physics, Vec f_local, PetscInt *status)
     }
   }
   PetscCall(VecRestoreArray(f_local, &f));
-  PetscCall(VecRestoreArrayRead(physics->u_local, &u));
+  PetscCall(looked(physics, &view));
   PetscCall(agree_on_inverted(physics, first_inverted, status));
   if (physics->springs) PetscCall(springs_forces(physics, f_local));
   PetscCall(PetscTime(&end));
   physics->seconds += end - start;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode bulk_forces(Physics *physics, Vec f_local, PetscInt *status)
+{
+  PetscFunctionBegin;
+  PetscCall(bulk_step_forces(physics, NULL, f_local, status));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -176,31 +239,36 @@ static PetscErrorCode insert(const Physics *physics, PetscInt c, const PetscReal
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode bulk_stiffness(Physics *physics, Mat matrix, PetscInt *status)
+PetscErrorCode bulk_step_stiffness(Physics *physics, const BulkStep *step, Mat matrix, PetscInt *status)
 {
-  const Cells       *cells = &physics->cells;
-  const PetscScalar *u;
-  PetscLogDouble     start, end;
-  PetscInt           first_inverted = -1;
+  const Cells   *cells = &physics->cells;
+  View           view;
+  PetscLogDouble start, end;
+  PetscInt       first_inverted = -1;
 
   PetscFunctionBegin;
   PetscCall(PetscTime(&start));
-  PetscCall(VecGetArrayRead(physics->u_local, &u));
+  PetscCall(look(physics, step, &view));
   for (PetscInt c = 0; c < cells->n && first_inverted < 0; c++) {
     PetscReal u_cell[3 * CELL_NODES], f_cell[3 * CELL_NODES], K[9 * CELL_NODES * CELL_NODES];
     PetscBool inverted;
     if (is_rigid(physics, c)) continue;
-    cell_displacements(physics, c, u, u_cell);
-    PetscCall(cell_forces(kind_of(physics, c), &physics->mesh->space, &physics->materials[cells->body[c]],
-                          cells->X + 3 * cells->offsets[c], u_cell, f_cell, K, &inverted));
+    PetscCall(evaluate(physics, c, &view, u_cell, f_cell, K, &inverted));
     if (inverted) first_inverted = c;
     PetscCall(insert(physics, c, K, matrix));
   }
-  PetscCall(VecRestoreArrayRead(physics->u_local, &u));
+  PetscCall(looked(physics, &view));
   PetscCall(agree_on_inverted(physics, first_inverted, status));
   if (physics->springs) PetscCall(springs_stiffness(physics, matrix));
   PetscCall(PetscTime(&end));
   physics->seconds += end - start;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode bulk_stiffness(Physics *physics, Mat matrix, PetscInt *status)
+{
+  PetscFunctionBegin;
+  PetscCall(bulk_step_stiffness(physics, NULL, matrix, status));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -217,11 +285,14 @@ PetscErrorCode bulk_extension(Physics *physics, Vec u_local, Vec f_local, Mat ma
   PetscCall(VecGetArray(f_local, &f));
   for (PetscInt c = 0; c < cells->n; c++) {
     const PetscInt first = cells->offsets[c], n = cells->offsets[c + 1] - first;
+    Element        element = bulk_element(physics, c);
     PetscReal      u_cell[3 * CELL_NODES], f_cell[3 * CELL_NODES], K[9 * CELL_NODES * CELL_NODES];
     PetscBool      inverted;
-    if (!physics->materials[cells->body[c]].law->finite) continue;
+    if (!element.material->law->finite) continue;
+    element.material = &likeness;
+    element.swell    = NULL;
     cell_displacements(physics, c, u, u_cell);
-    PetscCall(cell_forces(kind_of(physics, c), &physics->mesh->space, &likeness, cells->X + 3 * first, u_cell, f_cell, K, &inverted));
+    PetscCall(cell_forces(&element, u_cell, f_cell, K, &inverted));
     PetscCall(insert(physics, c, K, matrix));
     for (PetscInt k = 0; k < 3 * n; k++)
       f[cells->dofs[first + k / 3] + k % 3] += f_cell[k];

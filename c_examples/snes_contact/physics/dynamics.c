@@ -12,6 +12,8 @@
  * and v' = 2 (u' - u) / dt - v + (gamma - 2 beta) dt (a' - a). With rho_inf = 1 all terms of accelerations vanish: the midpoint rule.
  * Why energy does not grow then: docs/dynamics.md. Damping takes the velocity without its last term.
  *
+ * Bodies of finite strain have no f(u_a): their forces are of both ends of the step (elasticity_step.c).
+ *
  * Where displacements are prescribed v' and a' are what the supports say, and take part with (v' - v) / dt - (gamma - 2 beta) (a' - a) for
  * (2 / dt^2) (u' - u - dt v), which is the same of free ones. */
 #include "physics/dynamics.h"
@@ -68,19 +70,31 @@ PetscReal dynamics_velocity(const Dynamics *d, const StepView *step, PetscInt k)
   return d->entries[k] == MASS_NONE ? 0 : (1 - d->alpha_f) * end + d->alpha_f * v;
 }
 
-/* `middle`: the place of the forces, with `ahead` times the velocity there */
-static PetscErrorCode set_middle(Physics *physics, PetscReal ahead)
+BulkStep dynamics_bulk(const Physics *physics)
+{
+  const Dynamics *d = physics->dynamics;
+  const PetscReal here = 1 - d->alpha_f, ahead = 2 * d->stiffness_damping / d->dt;
+  return (BulkStep){.from = d->u, .to = physics->u_local, .rate = d->stiffness_damping > 0 ? d->rate : NULL, .alpha_f = d->alpha_f,
+                    .ahead = here * ahead, .linear = here * (1 + ahead)};
+}
+
+/* `middle`: the place of the forces, and `rate`. The former with it where `damped`: of a linear body f(u) + b f(v) = f(u + b v) */
+static PetscErrorCode set_middle(Physics *physics, PetscBool damped)
 {
   Dynamics    *d = physics->dynamics;
   StepView     step;
-  PetscScalar *middle;
+  PetscScalar *middle, *rate;
   PetscFunctionBegin;
   PetscCall(dynamics_look(physics, &step));
   PetscCall(VecGetArray(d->middle, &middle));
+  PetscCall(VecGetArray(d->rate, &rate));
   for (PetscInt k = 0; k < physics->unknowns.n_local; k++) {
     middle[k] = step.u[k] + (1 - d->alpha_f) * (step.now[k] - step.u[k]);
-    if (ahead > 0 && d->entries[k]) middle[k] += ahead * dynamics_velocity(d, &step, k);
+    if (!damped || !(d->stiffness_damping > 0) || !d->entries[k]) continue;
+    rate[k] = d->stiffness_damping * dynamics_velocity(d, &step, k);
+    middle[k] += rate[k];
   }
+  PetscCall(VecRestoreArray(d->rate, &rate));
   PetscCall(VecRestoreArray(d->middle, &middle));
   PetscCall(dynamics_looked(physics, &step));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -125,11 +139,10 @@ static void add_rounding(Physics *physics, const PetscScalar *u)
   const Cells    *cells = &physics->cells;
   const Dynamics *d     = physics->dynamics;
   for (PetscInt c = 0; c < cells->n; c++) {
-    const PetscInt n = cells->offsets[c + 1] - cells->offsets[c], *dofs = cells->dofs + cells->offsets[c];
+    const PetscInt n = d->cells[c].n, *dofs = d->cells[c].dofs;
     PetscReal      largest = 0, mass = 0;
-    if (d->first[c] < 0) continue;
     for (PetscInt a = 0; a < n; a++) {
-      mass = PetscMax(mass, d->mass[d->first[c] + (n + 1) * a]);
+      mass = PetscMax(mass, d->cells[c].m[(n + 1) * a]);
       for (int i = 0; i < 3; i++)
         largest = PetscMax(largest, PetscAbsScalar(u[dofs[a] + i]));
     }
@@ -169,18 +182,19 @@ static PetscErrorCode add_inertia(Physics *physics, Vec f_local)
 /* All forces but those of contact and loads, which are in f_external. f_local is zero before. */
 PetscErrorCode dynamics_forces(Physics *physics, Vec f_local, PetscInt *status)
 {
-  Dynamics *d = physics->dynamics;
+  Dynamics      *d    = physics->dynamics;
+  const BulkStep step = dynamics_bulk(physics);
   PetscFunctionBegin;
   if (loads_follow(physics)) {
-    PetscCall(set_middle(physics, 0));
+    PetscCall(set_middle(physics, PETSC_FALSE));
     dynamics_swap(&physics->u_local, &d->middle);
     PetscCall(set_loads(physics));
     dynamics_swap(&physics->u_local, &d->middle);
   }
   PetscCall(springs_step(physics, d->u, physics->u_local, d->alpha_f));
-  PetscCall(set_middle(physics, d->stiffness_damping)); /* a linear body: f(u) + b f(v) = f(u + b v) */
+  PetscCall(set_middle(physics, PETSC_TRUE));
   dynamics_swap(&physics->u_local, &d->middle);
-  PetscCall(bulk_forces(physics, f_local, status));
+  PetscCall(bulk_step_forces(physics, &step, f_local, status));
   dynamics_swap(&physics->u_local, &d->middle);
   PetscCall(VecScale(f_local, 1 / d->scale));
   PetscCall(add_inertia(physics, f_local));
@@ -204,17 +218,18 @@ PetscErrorCode dynamics_stiffness(Physics *physics, Mat matrix, PetscInt *status
 {
   Dynamics       *d    = physics->dynamics;
   const PetscReal here = (1 - d->alpha_f) / d->scale;
+  const BulkStep  step = dynamics_bulk(physics);
   PetscFunctionBegin;
   PetscCall(springs_step(physics, d->u, physics->u_local, d->alpha_f));
-  PetscCall(set_middle(physics, d->stiffness_damping));
+  PetscCall(set_middle(physics, PETSC_TRUE));
   dynamics_swap(&physics->u_local, &d->middle);
-  PetscCall(bulk_stiffness(physics, matrix, status));
+  PetscCall(bulk_step_stiffness(physics, &step, matrix, status));
   dynamics_swap(&physics->u_local, &d->middle);
   PetscCall(assemble(matrix));
   PetscCall(MatScale(matrix, 1 + 2 * d->stiffness_damping / d->dt));
   if (loads_follow(physics)) {
     const PetscReal t = physics->t;
-    PetscCall(set_middle(physics, 0));
+    PetscCall(set_middle(physics, PETSC_FALSE));
     physics->t = d->t_n + (1 - d->alpha_f) * d->dt;
     dynamics_swap(&physics->u_local, &d->middle);
     PetscCall(loads_stiffness(physics, matrix));

@@ -28,21 +28,39 @@ typedef struct {
   PetscReal t, part;
 } EnergyTold;
 
+/* The masses of a cell: n x n of the nodes that have them; n is 0 of a cell without any. With `contact_mass: spread` these are not all of the
+ * cell's, and others, and the arrays are its own (mass_spread.c). */
+typedef struct {
+  PetscInt   n, *dofs; /* local offset of each node */
+  PetscReal *X, *m;    /* undeformed places; masses */
+  PetscBool  own;
+} CellMass;
+
+/* A node without mass, which goes with nodes inside, its donors: as an affine field does */
+enum { DONORS = 4, MASS_NODES = CELL_NODES * DONORS }; /* a cell has masses of so many nodes at most */
+typedef struct {
+  PetscInt  dof, n, donors[DONORS]; /* local offsets */
+  PetscReal weights[DONORS];
+} Bare;
+
 struct Dynamics {
   PetscReal rho_inf, alpha_m, alpha_f, beta, gamma;
   PetscReal scale; /* kappa: the residual is divided by it, so that contact forces are what the library says */
   PetscReal mass_damping, stiffness_damping;
   PetscReal *velocity; /* of each body at t = 0: velocity, spin, the point that it turns about; MOTION_NUMBERS */
   PetscReal  t_n, dt;
-  /* of this rank's cells: where the n x n masses of each begin, of one without mass a negative number */
-  PetscInt  *first;
-  PetscReal *mass;
+  CellMass  *cells; /* of each of this rank's */
+  PetscReal *mass;  /* of those that have no arrays of their own */
+  PetscBool  spread;
+  PetscInt   n_bare;
+  Bare      *bare;
   char      *entries; /* of a local vector, MASS_... */
   /* local vectors: at t_n displacements, velocities, M times accelerations without those of contact, accelerations where they are
    * prescribed */
   Vec     u, v, force, prescribed;
   Vec     v_next, force_next, prescribed_next; /* the same at the end of the step: what is prescribed from its start on, else by dynamics_measure() */
   Vec     middle, work, smooth, impulse; /* the place of the forces; work space; forces but those of contact; 2 M v / dt */
+  Vec     rate;                          /* velocities at the time of the forces, times the stiffness_damping */
   Balance start, last, now;
   PetscBool told; /* that contact gives energy at all */
   EnergyTold energies[N_ENERGIES];
@@ -69,6 +87,7 @@ PetscErrorCode dynamics_destroy(Physics *physics);
 PetscErrorCode dynamics_begin(Physics *physics);
 PetscErrorCode dynamics_forces(Physics *physics, Vec f_local, PetscInt *status);
 PetscErrorCode dynamics_stiffness(Physics *physics, Mat matrix, PetscInt *status);
+BulkStep       dynamics_bulk(const Physics *physics); /* the step up to u_local, with what is in `rate` */
 PetscErrorCode dynamics_look(const Physics *physics, StepView *step);
 PetscErrorCode dynamics_looked(const Physics *physics, StepView *step);
 /* of entry k: what M is multiplied with in the residual; the velocity that damping takes, at the time of the forces */
@@ -85,4 +104,10 @@ PetscErrorCode mass_create(Physics *physics);
 void           mass_multiply(const Physics *physics, const PetscScalar *v, PetscReal factor, PetscScalar *f);
 PetscErrorCode mass_insert(const Physics *physics, PetscReal factor, Mat matrix);
 PetscErrorCode mass_matrix(Physics *physics);
+PetscErrorCode mass_destroy(Physics *physics);
+/* mass_spread.c: takes the masses of non-mortar nodes to nodes inside; where a matrix needs room for that; puts such nodes where an affine motion
+ * of their donors from one local vector to another takes them */
+PetscErrorCode mass_spread(Scene *scene, Physics *physics);
+PetscErrorCode mass_pattern(const Physics *physics, Mat matrix);
+void           mass_follow(const Physics *physics, const PetscScalar *from, PetscScalar *to);
 #endif

@@ -1,6 +1,6 @@
 /* The end of a step: velocities, and what the scheme says of energy and momentum. Work is force times displacement of the step; all
  * forces are those of the residual; inertia of what supports move works with the mean of both velocities, for a jump of the velocity is an
- * impulse that acts while it jumps. So with rho_inf = 1 and linear bodies the sum holds to rounding and Newton's tolerance:
+ * impulse that acts while it jumps. So with rho_inf = 1 the sum holds to rounding and Newton's tolerance:
  *
  *   kinetic + strain = those at t = 0 + work of loads, supports and contact - damping. */
 #include "physics/dynamics.h"
@@ -8,19 +8,18 @@
 /* Momentum, and energy of motion: v M v / 2 */
 static void add_motion(const Physics *physics, const PetscScalar *u, const PetscScalar *v, Balance *balance)
 {
-  const Cells    *cells = &physics->cells;
-  const Dynamics *d     = physics->dynamics;
-  for (PetscInt c = 0; c < cells->n; c++) {
-    const PetscInt n = cells->offsets[c + 1] - cells->offsets[c], *dofs = cells->dofs + cells->offsets[c];
-    if (d->first[c] < 0) continue;
+  const Dynamics *d = physics->dynamics;
+  for (PetscInt c = 0; c < physics->cells.n; c++) {
+    const CellMass *mass = &d->cells[c];
+    const PetscInt  n = mass->n, *dofs = mass->dofs;
     for (PetscInt a = 0; a < n; a++) {
       PetscReal p[3] = {0, 0, 0}, x[3];
       for (PetscInt b = 0; b < n; b++) {
         for (int i = 0; i < 3; i++)
-          p[i] += d->mass[d->first[c] + n * a + b] * PetscRealPart(v[dofs[b] + i]);
+          p[i] += mass->m[n * a + b] * PetscRealPart(v[dofs[b] + i]);
       }
       for (int i = 0; i < 3; i++) {
-        x[i] = cells->X[3 * (cells->offsets[c] + a) + i] + PetscRealPart(u[dofs[a] + i]);
+        x[i] = mass->X[3 * a + i] + PetscRealPart(u[dofs[a] + i]);
         balance->kinetic += 0.5 * PetscRealPart(v[dofs[a] + i]) * p[i];
         balance->momentum[i] += p[i];
       }
@@ -36,12 +35,12 @@ static void add_strain(const Physics *physics, const PetscScalar *u, Balance *ba
   const Dynamics *d     = physics->dynamics;
   for (PetscInt c = 0; c < cells->n; c++) {
     const PetscInt first = cells->offsets[c], n = cells->offsets[c + 1] - first;
+    const Element  element = bulk_element(physics, c);
     PetscReal      u_cell[3 * CELL_NODES];
-    if (d->first[c] < 0) continue;
+    if (!d->cells[c].n) continue;
     for (PetscInt k = 0; k < 3 * n; k++)
       u_cell[k] = PetscRealPart(u[cells->dofs[first + k / 3] + k % 3]);
-    balance->strain += cell_energy(cell_kind(physics->mesh->dimension, n), &physics->mesh->space,
-                                   &physics->materials[cells->body[c]], cells->X + 3 * first, u_cell);
+    balance->strain += cell_energy(&element, u_cell);
   }
 }
 
@@ -201,6 +200,7 @@ static PetscErrorCode add_damping(Physics *physics, PetscReal *gone)
 {
   Dynamics          *d = physics->dynamics;
   const Vec          kept = physics->u_local;
+  BulkStep           bulk = dynamics_bulk(physics);
   StepView           step;
   PetscScalar       *w, *f;
   PetscInt           status;
@@ -213,11 +213,12 @@ static PetscErrorCode add_damping(Physics *physics, PetscReal *gone)
     w[k] = dynamics_velocity(d, &step, k);
   PetscCall(VecRestoreArray(d->middle, &w));
   if (d->stiffness_damping > 0) {
-    PetscCall(VecScale(d->middle, d->stiffness_damping));
-    physics->u_local = d->middle;
-    PetscCall(bulk_forces(physics, d->work, &status));
+    bulk.damping_only = PETSC_TRUE;
+    PetscCall(VecCopy(d->middle, d->rate));
+    PetscCall(VecScale(d->rate, d->stiffness_damping));
+    physics->u_local = d->rate; /* which linear bodies take */
+    PetscCall(bulk_step_forces(physics, &bulk, d->work, &status));
     physics->u_local = kept;
-    PetscCall(VecScale(d->middle, 1 / d->stiffness_damping));
   }
   PetscCall(VecGetArray(d->middle, &w));
   PetscCall(VecGetArray(d->work, &f));
@@ -251,7 +252,7 @@ static PetscErrorCode massless_moves(const Physics *physics, PetscBool *moves)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* By rho_inf below 1, or finite strain. */
+/* By rho_inf below 1; else what Newton's method leaves. */
 PetscReal dynamics_numerical(const Dynamics *d, const Balance *balance)
 {
   return (balance->kinetic - d->start.kinetic) + (balance->strain - d->start.strain) - balance->external - balance->supports - balance->contact +

@@ -22,10 +22,6 @@ static void check_body(Scene *scene, const Physics *physics, PetscInt b)
   const Material *material = &physics->materials[b];
   if (body->rigid || body->analytic) return;
   if (!(material->density > 0)) scene_fail(scene, body->name, "density", "`dynamics` asks for one above 0.");
-  if (physics->dynamics->stiffness_damping > 0 && material->law->finite)
-    scene_fail(scene, "dynamics", "stiffness_damping",
-               "'%s' has a material of finite strain, whose turns such a damping would brake: leave it out, or give rho_inf below 1.",
-               body->name);
 }
 
 /* A rigid body that is not held in all has inertia, and moves at the start. */
@@ -49,8 +45,10 @@ static void read_rigid(Scene *scene, Physics *physics, Rigid *rigid)
   rigid_inertia_start(rigid, velocity, motion + 3);
 }
 
-static void read_scheme(Scene *scene, Dynamics *dynamics)
+static void read_scheme(Scene *scene, const Mesh *mesh, Dynamics *dynamics)
 {
+  static const char *const masses[]  = {"consistent", "spread", NULL};
+  PetscInt                 mass      = 0;
   static const char *const damping[] = {"mass_damping", "stiffness_damping"};
   PetscReal *const         values[]  = {&dynamics->mass_damping, &dynamics->stiffness_damping};
   const PetscReal          rho       = dynamics->rho_inf;
@@ -59,6 +57,10 @@ static void read_scheme(Scene *scene, Dynamics *dynamics)
     scene_real(scene, "dynamics", damping[k], values[k]);
     if (!(*values[k] >= 0)) scene_fail(scene, "dynamics", damping[k], "it cannot be negative, as %g is.", (double)*values[k]);
   }
+  scene_choice(scene, "dynamics", "contact_mass", masses, &mass);
+  dynamics->spread = (PetscBool)mass;
+  if (mass && rho < 1) scene_fail(scene, "dynamics", "contact_mass", "`spread` goes with `rho_inf: 1` only: nodes without mass have no acceleration.");
+  if (mass && mesh->size > 1) scene_fail(scene, "dynamics", "contact_mass", "`spread` is for one rank only, not for %d.", (int)mesh->size);
   dynamics->alpha_m = (2 * rho - 1) / (rho + 1);
   dynamics->alpha_f = rho / (rho + 1);
   dynamics->gamma   = 0.5 - dynamics->alpha_m + dynamics->alpha_f;
@@ -74,14 +76,14 @@ PetscErrorCode dynamics_read(Scene *scene, Physics *physics)
   PetscBool    named = scene_has(scene, "dynamics", "rho_inf");
   PetscFunctionBegin;
   scene_real(scene, "dynamics", "rho_inf", &rho);
-  if (!named && (scene_has(scene, "dynamics", "mass_damping") || scene_has(scene, "dynamics", "stiffness_damping")))
+  if (!named && (scene_has(scene, "dynamics", "mass_damping") || scene_has(scene, "dynamics", "stiffness_damping") || scene_has(scene, "dynamics", "contact_mass")))
     scene_fail(scene, "dynamics", "rho_inf", "this key is missing: 1 for a scheme that keeps the energy.");
   PetscCall(PetscCalloc1(MOTION_NUMBERS * mesh->n_bodies, &motions));
   if (named) {
     PetscCall(PetscNew(&physics->dynamics));
     physics->dynamics->rho_inf  = rho;
     physics->dynamics->velocity = motions;
-    read_scheme(scene, physics->dynamics);
+    read_scheme(scene, mesh, physics->dynamics);
   }
   for (PetscInt b = 0; b < mesh->n_bodies; b++) {
     const Body *body = &mesh->bodies[b];

@@ -15,7 +15,7 @@ static PetscErrorCode start(Physics *physics)
   PetscCall(VecGetArray(d->v, &v));
   for (PetscInt c = 0; c < cells->n; c++) {
     const PetscReal *motion = d->velocity + MOTION_NUMBERS * cells->body[c], *spin = motion + 3;
-    if (d->first[c] < 0) continue;
+    if (!d->cells[c].n) continue;
     for (PetscInt k = cells->offsets[c]; k < cells->offsets[c + 1]; k++) {
       PetscReal arm[3];
       for (int i = 0; i < 3; i++)
@@ -38,6 +38,7 @@ static PetscErrorCode first_force(Physics *physics, PetscInt *status)
 {
   Dynamics          *d    = physics->dynamics;
   const Vec          kept = physics->u_local;
+  const BulkStep     step = {.from = d->u, .to = d->u, .rate = d->rate};
   const PetscScalar *v;
   PetscScalar       *f;
   PetscFunctionBegin;
@@ -45,8 +46,9 @@ static PetscErrorCode first_force(Physics *physics, PetscInt *status)
   PetscCall(VecCopy(d->u, d->middle));
   physics->u_local = d->middle;
   PetscCall(loads_values(physics));
-  PetscCall(VecAXPY(d->middle, d->stiffness_damping, d->v)); /* a linear body: f(u) + b f(v) = f(u + b v) */
-  PetscCall(bulk_forces(physics, d->force, status));
+  PetscCall(VecAXPY(d->rate, d->stiffness_damping, d->v));
+  PetscCall(VecAXPY(d->middle, 1, d->rate)); /* a linear body: f(u) + b f(v) = f(u + b v) */
+  PetscCall(bulk_step_forces(physics, &step, d->force, status));
   physics->u_local = kept;
   PetscCall(VecGetArrayRead(d->v, &v));
   PetscCall(VecGetArray(d->force, &f));
@@ -57,13 +59,13 @@ static PetscErrorCode first_force(Physics *physics, PetscInt *status)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-enum { N_VECTORS = 11 };
+enum { N_VECTORS = 12 };
 
 /* All that it has. */
 static void list_vectors(Dynamics *d, Vec *vectors[N_VECTORS])
 {
   Vec *const all[N_VECTORS] = {&d->u, &d->v, &d->force, &d->prescribed, &d->v_next, &d->force_next, &d->prescribed_next,
-                               &d->middle, &d->work, &d->smooth, &d->impulse};
+                               &d->middle, &d->work, &d->smooth, &d->impulse, &d->rate};
   for (int k = 0; k < N_VECTORS; k++)
     vectors[k] = all[k];
 }
@@ -92,6 +94,7 @@ PetscErrorCode dynamics_create(Scene *scene, Physics *physics)
     PetscCall(VecZeroEntries(*vectors[k]));
   }
   PetscCall(mass_create(physics));
+  if (d->spread) PetscCall(mass_spread(scene, physics));
   for (PetscInt c = 0; c < physics->cells.n; c++) {
     for (PetscInt r = 0; r < physics->n_rigids; r++)
       if (physics->cells.body[c] == physics->rigids[r].body) physics->rigids[r].part = physics->cells.part[c];
@@ -140,8 +143,7 @@ PetscErrorCode dynamics_destroy(Physics *physics)
   PetscCall(MatDestroy(&d->matrix));
   PetscCall(KSPDestroy(&d->solver));
   PetscCall(PetscFree(d->velocity));
-  PetscCall(PetscFree(d->first));
-  PetscCall(PetscFree(d->mass));
+  PetscCall(mass_destroy(physics));
   PetscCall(PetscFree(d->entries));
   PetscCall(PetscFree(physics->dynamics));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -61,18 +61,22 @@ PetscErrorCode mass_create(Physics *physics)
 
   PetscFunctionBegin;
   PetscCall(PetscDTGaussQuadrature(ALONG, -1, 1, place, weight));
-  PetscCall(PetscMalloc1(cells->n, &dynamics->first));
+  PetscCall(PetscCalloc1(cells->n, &dynamics->cells));
   for (PetscInt c = 0; c < cells->n; c++) {
-    const Body *body   = &mesh->bodies[cells->body[c]];
-    dynamics->first[c] = body->rigid || body->analytic ? -1 : size;
-    if (dynamics->first[c] >= 0) size += PetscSqr(nodes_of(cells, c));
+    const Body *body = &mesh->bodies[cells->body[c]];
+    if (body->rigid || body->analytic) continue;
+    dynamics->cells[c] = (CellMass){.n = nodes_of(cells, c), .dofs = cells->dofs + cells->offsets[c], .X = cells->X + 3 * cells->offsets[c]};
+    size += PetscSqr(nodes_of(cells, c));
   }
   PetscCall(PetscMalloc1(size, &dynamics->mass));
+  size = 0;
   PetscCall(PetscCalloc1(physics->unknowns.n_local, &dynamics->entries));
   for (PetscInt c = 0; c < cells->n; c++) {
-    if (dynamics->first[c] < 0) continue;
-    cell_mass(cell_kind(mesh->dimension, nodes_of(cells, c)), &mesh->space, physics->materials[cells->body[c]].density, place, weight,
-              cells->X + 3 * cells->offsets[c], dynamics->mass + dynamics->first[c]);
+    CellMass *mass = &dynamics->cells[c];
+    if (!mass->n) continue;
+    mass->m = dynamics->mass + size;
+    size += PetscSqr(mass->n);
+    cell_mass(cell_kind(mesh->dimension, mass->n), &mesh->space, physics->materials[cells->body[c]].density, place, weight, mass->X, mass->m);
     for (PetscInt k = 0; k < 3 * nodes_of(cells, c); k++) {
       const PetscInt at     = cells->dofs[cells->offsets[c] + k / 3] + k % 3;
       dynamics->entries[at] = physics->unknowns.equations[at] < 0 ? MASS_PRESCRIBED : MASS_FREE;
@@ -87,9 +91,8 @@ void mass_multiply(const Physics *physics, const PetscScalar *v, PetscReal facto
   const Cells    *cells    = &physics->cells;
   const Dynamics *dynamics = physics->dynamics;
   for (PetscInt c = 0; c < cells->n; c++) {
-    const PetscInt   n = nodes_of(cells, c), *dofs = cells->dofs + cells->offsets[c];
-    const PetscReal *m = dynamics->mass + dynamics->first[c];
-    if (dynamics->first[c] < 0) continue;
+    const PetscInt   n = dynamics->cells[c].n, *dofs = dynamics->cells[c].dofs;
+    const PetscReal *m = dynamics->cells[c].m;
     for (PetscInt a = 0; a < n; a++) {
       PetscScalar sum[3] = {0, 0, 0};
       for (PetscInt b = 0; b < n; b++) {
@@ -105,19 +108,17 @@ void mass_multiply(const Physics *physics, const PetscScalar *v, PetscReal facto
 /* Adds factor M to a matrix of the equations. */
 PetscErrorCode mass_insert(const Physics *physics, PetscReal factor, Mat matrix)
 {
-  const Cells    *cells    = &physics->cells;
-  const Dynamics *dynamics = physics->dynamics;
+  static PetscReal m[MASS_NODES * MASS_NODES];
   PetscFunctionBegin;
-  for (PetscInt c = 0; c < cells->n; c++) {
-    const PetscInt n = nodes_of(cells, c), *dofs = cells->dofs + cells->offsets[c];
-    PetscReal      m[CELL_NODES * CELL_NODES];
-    if (dynamics->first[c] < 0) continue;
+  for (PetscInt c = 0; c < physics->cells.n; c++) {
+    const CellMass *mass = &physics->dynamics->cells[c];
+    const PetscInt  n    = mass->n;
     for (PetscInt k = 0; k < n * n; k++)
-      m[k] = factor * dynamics->mass[dynamics->first[c] + k];
-    for (int i = 0; i < 3; i++) {
-      PetscInt equations[CELL_NODES];
+      m[k] = factor * mass->m[k];
+    for (int i = 0; i < 3 && n; i++) {
+      PetscInt equations[MASS_NODES];
       for (PetscInt a = 0; a < n; a++)
-        equations[a] = physics->unknowns.equations[dofs[a] + i];
+        equations[a] = physics->unknowns.equations[mass->dofs[a] + i];
       PetscCall(MatSetValues(matrix, n, equations, n, equations, m, ADD_VALUES));
     }
   }
@@ -177,5 +178,19 @@ PetscErrorCode mass_matrix(Physics *physics)
   PetscCall(KSPGetPC(dynamics->solver, &pc));
   PetscCall(PCSetType(pc, PCJACOBI));
   PetscCall(KSPSetTolerances(dynamics->solver, RTOL, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode mass_destroy(Physics *physics)
+{
+  Dynamics *dynamics = physics->dynamics;
+  PetscFunctionBegin;
+  for (PetscInt c = 0; dynamics->cells && c < physics->cells.n; c++) {
+    CellMass *mass = &dynamics->cells[c];
+    if (mass->own) PetscCall(PetscFree3(mass->dofs, mass->X, mass->m));
+  }
+  PetscCall(PetscFree(dynamics->cells));
+  PetscCall(PetscFree(dynamics->mass));
+  PetscCall(PetscFree(dynamics->bare));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

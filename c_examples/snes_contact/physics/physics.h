@@ -103,6 +103,7 @@ typedef struct {
 typedef struct {
   PetscInt   n, *offsets, *dofs, *body, *part; /* dofs: local offset of each node */
   PetscReal *X, *stiffness;                    /* coordinates of the nodes; stiffness at rest */
+  PetscReal *swell;                            /* of each node: strain without stress; NULL: nothing of finite strain expands */
 } Cells;
 
 /* Connected cells: bodies, or pieces of them, that nothing but contact joins to others */
@@ -301,11 +302,23 @@ PetscErrorCode unknowns_displacement(const Physics *physics, PetscInt number, co
 /* of the k-th vertex here: its place, and where its displacement lies in a local vector; `coordinates`: the DM's local ones */
 PetscErrorCode unknowns_place(const Physics *physics, PetscInt k, const PetscScalar *coordinates, PetscReal X[3], PetscInt *at);
 
+/* A step of `dynamics`, for bodies of finite strain: local vectors of displacements at its start and end, CellStep. `linear`: over what their
+ * derivatives by `to` are given, since those of linear bodies by their own place are multiplied with it afterwards */
+typedef struct {
+  Vec       from, to, rate; /* rate: NULL: none */
+  PetscReal alpha_f, ahead, linear;
+  PetscBool damping_only;
+} BulkStep;
+
 /* bulk.c */
 PetscErrorCode bulk_create(Physics *physics);
+Element        bulk_element(const Physics *physics, PetscInt cell); /* of this rank */
 /* `status` > 0 on every rank if a cell is turned inside out somewhere, named in physics->inverted */
 PetscErrorCode bulk_forces(Physics *physics, Vec f_local, PetscInt *status); /* adds, to the parts' squares, too */
 PetscErrorCode bulk_stiffness(Physics *physics, Mat matrix, PetscInt *status);         /* adds */
+/* the same; with a step bodies of finite strain have those of elasticity_step.c, the others those of u_local */
+PetscErrorCode bulk_step_forces(Physics *physics, const BulkStep *step, Vec f_local, PetscInt *status);
+PetscErrorCode bulk_step_stiffness(Physics *physics, const BulkStep *step, Mat matrix, PetscInt *status);
 PetscErrorCode bulk_extension(Physics *physics, Vec u_local, Vec f_local, Mat matrix); /* adds to both */
 PetscErrorCode bulk_pattern(Physics *physics, Mat matrix);                             /* adds zeros */
 
@@ -323,7 +336,7 @@ typedef struct {
   PetscInt  hidden;            /* a part whose forces would balance if those of contact counted in full; -1: none */
 } Judgement;
 PetscErrorCode parts_measure(Physics *physics);
-Judgement      parts_judge(const Physics *physics, PetscReal rtol, PetscReal atol, PetscBool flies);
+Judgement      parts_judge(const Physics *physics, PetscReal rtol, PetscReal atol, PetscBool exact);
 PetscErrorCode parts_hidden_words(const Physics *physics, PetscInt part, char why[], size_t length);
 PetscErrorCode parts_resultants(Physics *physics, char why[], size_t length); /* of each part as a whole; empty: they balance */
 /* loads_turned.c: pressures that do not follow surfaces that turn */

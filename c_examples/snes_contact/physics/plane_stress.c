@@ -28,6 +28,22 @@ PetscBool plane_stress_stretch(const Material *material, PetscReal H[9])
   return PETSC_FALSE;
 }
 
+PetscBool plane_stress_strain(const Material *material, PetscReal E[9])
+{
+  PetscReal S[9], V[9], D[81], p, dp;
+  for (int k = 0; k < MOST_ITERATIONS; k++) {
+    const PetscReal squared = 1 + 2 * E[8]; /* of the stretch */
+    PetscReal       change;
+    material->law->pressure(material, material->law->volume_of_strain(E), &p, &dp);
+    material->law->second_stress(material, E, p, dp, S, V, D);
+    if (!(D[80] > 0)) return PETSC_FALSE; /* it would not resist */
+    change = PetscMax(-S[8] / D[80], (LEAST_PART - 1) * squared / 2);
+    E[8] += change;
+    if (PetscAbsReal(change) <= SETTLED * squared) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
 void plane_stress_condense(PetscReal A[81])
 {
   PetscReal row[9], column[9];

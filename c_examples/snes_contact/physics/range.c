@@ -90,7 +90,8 @@ static PetscErrorCode measure(const Physics *physics, Vec u_local, PetscReal lar
   for (PetscInt c = 0; c < cells->n; c++) {
     const PetscInt first = cells->offsets[c], n = cells->offsets[c + 1] - first, b = cells->body[c];
     PetscReal      u[3 * CELL_NODES], H[9], strain, rotation;
-    PetscBool      held = PETSC_TRUE;
+    PetscBool      held    = PETSC_TRUE;
+    const Element  element = bulk_element(physics, c);
     if (mesh->bodies[b].analytic || mesh->bodies[b].rigid || physics->materials[b].law != &MATERIAL_LINEAR) continue;
     for (PetscInt k = 0; k < 3 * n; k++) {
       const PetscInt dof = cells->dofs[first + k / 3] + k % 3;
@@ -98,7 +99,7 @@ static PetscErrorCode measure(const Physics *physics, Vec u_local, PetscReal lar
       held               = (PetscBool)(held && entry_held(physics, dof));
     }
     if (held) continue;
-    cell_centre_gradient(cell_kind(mesh->dimension, n), &mesh->space, &physics->materials[b], cells->X + 3 * first, u, H);
+    cell_centre_gradient(&element, u, H);
     PetscCall(decompose(H, &strain, &rotation));
     largest[2 * b]     = PetscMax(largest[2 * b], strain);
     largest[2 * b + 1] = PetscMax(largest[2 * b + 1], rotation);

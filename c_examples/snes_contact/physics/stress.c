@@ -11,17 +11,16 @@ static PetscReal part_of_the_way(CellKind kind)
   return kind == TET10 ? 1 / PetscSqrtReal(5) : 0;
 }
 
-void cell_centre_stress(CellKind kind, const Space *space, const Material *material, const PetscReal X[],
-                        const PetscReal u[], PetscReal sigma[9])
+void cell_centre_stress(const Element *element, const PetscReal u[], PetscReal sigma[9])
 {
   PetscReal centre[3];
-  cell_centre(kind, centre);
-  cell_stresses(kind, space, material, X, u, 1, centre, sigma);
+  cell_centre(element->kind, centre);
+  cell_stresses(element, u, 1, centre, sigma);
 }
 
-void cell_nodal_stresses(CellKind kind, const Space *space, const Material *material, const PetscReal X[],
-                         const PetscReal u[], PetscReal sigma[])
+void cell_nodal_stresses(const Element *element, const PetscReal u[], PetscReal sigma[])
 {
+  const CellKind  kind    = element->kind;
   const PetscInt  corners = cell_corners(kind);
   const CellKind  linear  = cell_kind(cell_dimension(kind), corners);
   const PetscReal part    = part_of_the_way(kind);
@@ -32,7 +31,7 @@ void cell_nodal_stresses(CellKind kind, const Space *space, const Material *mate
     for (int i = 0; i < 3; i++)
       xi[3 * c + i] = centre[i] + part * (xi[3 * c + i] - centre[i]);
   }
-  cell_stresses(kind, space, material, X, u, corners, xi, known);
+  cell_stresses(element, u, corners, xi, known);
   for (PetscInt a = 0; a < cell_nodes(kind); a++) {
     PetscReal at[3], N[CELL_NODES], dN[CELL_NODES][3];
     cell_node_position(kind, a, at);

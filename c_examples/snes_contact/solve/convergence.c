@@ -18,6 +18,8 @@ enum { UNSOUND = 3 };
  * part of it. */
 enum { SPAN = 8 };
 static const PetscReal NEARER = 0.01;
+/* An iteration that leaves less than this of a residual is not at its rounding. */
+static const PetscReal GAINS = 0.01;
 /* A residual that grows by this has thrown the bodies about. */
 static const PetscReal THROWN = 100;
 
@@ -145,14 +147,26 @@ static PetscErrorCode judge_contact(Solve *solve, PetscReal rtol, PetscBool *hol
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* With `dynamics` rounding ends no step while Newton's method gains: what is left adds up over thousands of them. */
+static PetscErrorCode gains(SNES snes, const Solve *solve, PetscReal norm, PetscBool *gain)
+{
+  PetscReal *norms;
+  PetscInt   n;
+  PetscFunctionBegin;
+  PetscCall(SNESGetConvergenceHistory(snes, &norms, NULL, &n)); /* the last one is that of now */
+  *gain = (PetscBool)(solve->physics->dynamics && n > 1 && norm <= GAINS * norms[n - 2]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode judge(SNES snes, Solve *solve, PetscReal norm, SNESConvergedReason *reason)
 {
   Newton         *newton = &solve->newton;
   PetscReal       atol, rtol;
-  PetscBool       holds, stuck, mistaken;
+  PetscBool       holds, stuck, mistaken, gain = PETSC_FALSE;
   Judgement       forces;
   const PetscBool flies = (PetscBool)(solve->closing.active && solve->closing.loose >= 0);
   PetscFunctionBegin;
+  PetscCall(gains(snes, solve, norm, &gain));
   PetscCall(SNESGetTolerances(snes, &atol, &rtol, NULL, NULL, NULL));
   *reason = SNES_CONVERGED_ITERATING;
   if (PetscIsInfOrNanReal(norm)) {
@@ -160,7 +174,7 @@ static PetscErrorCode judge(SNES snes, Solve *solve, PetscReal norm, SNESConverg
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   newton->unsound[0] = 0;
-  forces             = parts_judge(solve->physics, rtol, atol, flies);
+  forces             = parts_judge(solve->physics, rtol, atol, (PetscBool)(flies || gain));
   newton->drowned    = forces.drowned;
   if (!forces.balance) {
     equilibrium_restart(solve->contact);

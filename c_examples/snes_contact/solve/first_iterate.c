@@ -6,7 +6,7 @@
  * of finite strain: by linear elasticity on their undeformed cells, without contact. A prescribed translation moves a
  * whole body, a prescribed linear field strains it homogeneously, and a body without a prescribed motion stays.
  *
- * Where normals follow the motion and supports turn a part as a whole, it is turned with them first (turned_start.c).
+ * With `dynamics` what turns is extrapolated along arcs (turned_on.c). Where normals follow the motion and supports turn a part as a whole, it is turned with them first (turned_start.c).
  *
  * This chooses where Newton's method starts, not what it solves. */
 #include "solve/solve.h"
@@ -139,6 +139,7 @@ PetscErrorCode first_iterate(Solve *solve, const Past *past, PetscBool extrapola
   if (extrapolate) {
     PetscCall(VecAXPY(x, factor, past->last));
     PetscCall(VecAXPY(x, -factor, past->before));
+    PetscCall(turn_on(solve, past, factor, x));
   } else {
     PetscCall(move_supports(solve, past->t_last, x));
   }

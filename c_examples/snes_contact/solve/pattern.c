@@ -1,5 +1,6 @@
 /* Which entries the matrix has room for. The factors of a matrix depend on it to their last bits, and it depends on where the surfaces were
  * when it was made; so a restart file keeps the rows that contact touches. The others are those of the bodies. */
+#include "physics/dynamics.h"
 #include "solve/solve.h"
 
 static PetscErrorCode add_rows(const PatternRows *rows, Mat counter)
@@ -37,6 +38,7 @@ PetscErrorCode pattern_create(Solve *solve, const PatternRows *rows, Mat *matrix
     PetscCall(MatSetValue(counter, row, row, 0, ADD_VALUES));
   PetscCall(bulk_pattern(solve->physics, counter));
   PetscCall(rigids_pattern(solve->physics, counter));
+  PetscCall(mass_pattern(solve->physics, counter));
   if (rows)
     PetscCall(add_rows(rows, counter));
   else

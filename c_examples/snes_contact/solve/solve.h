@@ -197,6 +197,9 @@ PetscErrorCode cycling_describe(Solve *solve, PetscInt period, struct cJSON *par
 /* turned_start.c */
 PetscErrorCode turn_parts(Solve *solve, PetscReal t0, Vec u, PetscBool *turned);
 
+/* turned_on.c: of a first iterate that is extrapolated along lines, the bodies that turn */
+PetscErrorCode turn_on(const Solve *solve, const Past *past, PetscReal factor, Vec x);
+
 /* newton.c: creates SNES and all that belongs to it, too */
 PetscErrorCode newton_create(Solve *solve);
 PetscErrorCode newton_destroy(Solve *solve);
