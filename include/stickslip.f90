@@ -1470,6 +1470,15 @@ module stickslip
       integer(c_int64_t), intent(inout) :: count
     end function
 
+    ! What passes through one node: sides(2) [F/(L T)]; slopes(STICKSLIP_HEAT_SLOPES, 2) and conductance: c_loc, or c_null_ptr.
+    integer(c_int32_t) function stickslip_node_heat(heat, jump, pressure, gap, area, work, sides, slopes, conductance) bind(C)
+      import :: c_double, c_int32_t, c_ptr, stickslip_heat
+      type(stickslip_heat), intent(in) :: heat
+      real(c_double), value :: jump, pressure, gap, area, work
+      real(c_double), intent(inout) :: sides(*)
+      type(c_ptr), value :: slopes, conductance
+    end function
+
     ! How the residual depends on the positions of t_n, as triplets. With rows, columns and values c_null_ptr only count is written.
     integer(c_int32_t) function stickslip_interface_previous_tangent_coo(interface, x1, x2, lambda, capacity, rows, columns, &
         values, count) bind(C)
@@ -1496,15 +1505,6 @@ module stickslip
       real(c_double), intent(in) :: x1(*), x2(*), lambda(*)
       type(stickslip_direction), intent(in) :: direction
       real(c_double), intent(inout) :: force1(*), force2(*), rows(*)
-    end function
-
-    ! What passes through one node: sides(2) [F/(L T)]; slopes(STICKSLIP_HEAT_SLOPES, 2) and conductance: c_loc, or c_null_ptr.
-    integer(c_int32_t) function stickslip_node_heat(heat, jump, pressure, gap, area, work, sides, slopes, conductance) bind(C)
-      import :: c_double, c_int32_t, c_ptr, stickslip_heat
-      type(stickslip_heat), intent(in) :: heat
-      real(c_double), value :: jump, pressure, gap, area, work
-      real(c_double), intent(inout) :: sides(*)
-      type(c_ptr), value :: slopes, conductance
     end function
   end interface
 end module

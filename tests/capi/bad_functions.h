@@ -209,6 +209,15 @@ FUNCTION(interface_heat_tangent_coo, (a[0], a[1], a[2], a[3], a[4], a[5], a[6], 
 FUNCTION(node_heat, (a[0], b.jump, b.pressure, b.node_gap, b.area, b.work, a[1], a[2], a[3]), {"heat", &b.heat, NEEDED},
          {"sides", b.every.heat_sides, NEEDED}, {"slopes", b.every.heat_slopes, OPTIONAL},
          {"conductance", &b.every.heat_conductance, OPTIONAL})
+FUNCTION(interface_previous_tangent_coo, (a[0], a[1], a[2], a[3], b.capacity, a[4], a[5], a[6], a[7]), AT,
+         {"lambda", S.lambda, NEEDED}, {"rows", H.row_numbers, NEEDED}, {"columns", H.columns, NEEDED},
+         {"values", H.values, NEEDED}, {"count", &H.count, NEEDED})
+FUNCTION(interface_adjoint, (a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7]), AT, {"lambda", S.lambda, NEEDED},
+         {"a1", b.every.a1, NEEDED}, {"a2", b.every.a2, NEEDED}, {"a_rows", b.every.a_rows, NEEDED},
+         {"gradient", &b.every.gradient, NEEDED})
+FUNCTION(interface_sensitivity, (a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7]), AT, {"lambda", S.lambda, NEEDED},
+         {"direction", &b.every.direction, NEEDED}, {"force1", b.every.change1, NEEDED}, {"force2", b.every.change2, NEEDED},
+         {"rows", b.every.change_rows, NEEDED})
 FUNCTION(interface_equilibrium, (a[0], a[1], a[2], a[3], a[4], a[5]), POINT, OUT(b.every.equilibrium))
 
 FUNCTION(rigid_positions, (a[0], a[1], a[2]), {"body", &b.rigid.body, NEEDED}, {"motion", &b.rigid.motion, NEEDED},
@@ -246,7 +255,8 @@ static const struct {
     NAMED(interface_history_export), NAMED(interface_history_import), NAMED(interface_counters),
     NAMED(interface_effects), NAMED(interface_report), NAMED(interface_diagnose), NAMED(interface_equilibrium),
     NAMED(interface_set_offsets), NAMED(interface_adjust), NAMED(interface_shape_offsets),
-    NAMED(interface_heat), NAMED(interface_heat_tangent_coo), NAMED(node_heat), NAMED(interface_set_law), NAMED(interface_set_threshold), NAMED(interface_law_states), NAMED(interface_set_law_states),
+    NAMED(interface_heat), NAMED(interface_heat_tangent_coo), NAMED(node_heat),
+    NAMED(interface_previous_tangent_coo), NAMED(interface_adjoint), NAMED(interface_sensitivity), NAMED(interface_set_law), NAMED(interface_set_threshold), NAMED(interface_law_states), NAMED(interface_set_law_states),
     NAMED(node_condense), NAMED(interface_carriers), NAMED(interface_condensed_multipliers), NAMED(interface_condensed_residual),
     NAMED(interface_condensed_coo), NAMED(interface_condensed_csr), NAMED(interface_condensed_pattern),
     NAMED(interface_use_normals), NAMED(interface_turn_multipliers), NAMED(facet_normal_derivatives), NAMED(node_turn),

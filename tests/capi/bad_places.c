@@ -71,6 +71,11 @@ static const struct {
     ONE(heat, gas_gap), ONE(heat, reach), ONE(heat, share), ONE(heat, time),
     I64(heat_nodes, struct_size), MAY(heat_nodes, conductance), MAY(heat_nodes, flux), MAY(heat_nodes, jump),
     MAY(heat_nodes, friction), MAY(heat_nodes, area),
+    I64(gradient, struct_size), MAY(gradient, previous1), MAY(gradient, previous2), MAY(gradient, now1), MAY(gradient, now2),
+    MAY(gradient, friction), MAY(gradient, shear_limit), MAY(gradient, offsets1), MAY(gradient, offsets2),
+    I64(direction, struct_size), MAY(direction, previous1), MAY(direction, previous2), MAY(direction, now1),
+    MAY(direction, now2), MAY(direction, friction), MAY(direction, shear_limit), MAY(direction, offsets1),
+    MAY(direction, offsets2),
     /* Of a response: what node_respond, node_block and pair_tangent read. */
     RESPONSE(answer, struct_size, INT64, 0), RESPONSE(response, struct_size, INT64, 0),
     RESPONSE(response, row, REAL, 3), RESPONSE(response, drow_dlambda, REAL, 9),

@@ -26,10 +26,19 @@ static inline void rigid_parts_init(rigid_parts *r) {
       .coordinates = r->coordinates, .point = r->point, .node_equations = r->node_equations, .equations = r->equations};
 }
 
+/* What a residual depends on besides multipliers. */
+typedef struct {
+  double previous1[X1], previous2[X2], now1[X1], now2[X2], friction[N1], shear_limit[1], offsets1[N1], offsets2[N2];
+} dependence;
+
 typedef struct {
   element e;
   handle h;
   history exported; /* what history_import takes */
+  /* Inputs of products with derivatives. */
+  dependence along;
+  stickslip_direction direction;
+  double a1[X1], a2[X2], a_rows[X1];
   /* Outputs. */
   stickslip_options options;
   stickslip_method method;
@@ -54,9 +63,10 @@ typedef struct {
   double step_limit;
   stickslip_equilibrium equilibrium;
   double node_equilibrium[3], facet_normal[3];
-  /* Of systems without multipliers: for each call with triplets their number, and a number made of their bits. */
+  /* Of systems without multipliers. */
   double condensed_lambda[X1], condensed_rows[X1], condensed_force[X2], node_condensed[13];
-  uint64_t condensed_counts[5], condensed_bits[5];
+  /* For each call with triplets their number, and a number made of their bits: of systems without multipliers, and by positions of t_n. */
+  uint64_t triplet_counts[6], triplet_bits[6];
   double turned[X1];
   double adjusted[X1], gaps[N1], shape_offsets[N1], law_states[N1];
   int64_t law_count;
@@ -66,6 +76,10 @@ typedef struct {
   double heat_conductance;
   stickslip_heat_nodes heat_nodes;
   int64_t heat_e1[N1], heat_e2[N2], heat_count, heat_columns[UNKNOWNS * UNKNOWNS];
+  /* Of derivatives. */
+  dependence slopes;
+  stickslip_gradient gradient;
+  double change1[X1], change2[X2], change_rows[X1];
   /* Of plans, two for those of condensed systems. */
   int64_t plan_rows[2], plan_counts[2], row_list[UNKNOWNS], row_offsets[UNKNOWNS + 1], plan_columns[UNKNOWNS * UNKNOWNS];
   int32_t row_list32[UNKNOWNS], row_offsets32[UNKNOWNS + 1], rows32[UNKNOWNS * UNKNOWNS], columns32[UNKNOWNS * UNKNOWNS];
@@ -331,11 +345,11 @@ static inline int32_t every_triplets(every *c, int k, int32_t status) {
   if (status != STICKSLIP_OK) return status;
   uint64_t bits = 0, value = 0;
   for (int64_t e = 0; e < c->h.count; ++e) {
-    if (k < 4) memcpy(&value, &c->h.values[e], sizeof value);
+    if (k != 4) memcpy(&value, &c->h.values[e], sizeof value);
     bits = 31 * (31 * (31 * bits + value) + (uint64_t)c->h.row_numbers[e]) + (uint64_t)c->h.columns[e];
   }
-  c->condensed_counts[k] = (uint64_t)c->h.count;
-  c->condensed_bits[k] = bits;
+  c->triplet_counts[k] = (uint64_t)c->h.count;
+  c->triplet_bits[k] = bits;
   return status;
 }
 static inline int32_t every_node_condense(every *c) {
@@ -414,6 +428,30 @@ static inline int32_t every_condensed_values(every *c) {
   scene *s = &c->h.s;
   return stickslip_interface_condensed_values(s->interface, s->x1, s->x2, c->condensed_lambda, c->plan_values[0],
                                               c->plan_values[1]);
+}
+
+/* What derivatives by positions of t_n and by parameters go with. */
+static inline int every_has_derivatives(const every *c) {
+  const stickslip_method *o = &c->h.s.method;
+  return o->form == STICKSLIP_FORM_MULTIPLIER && o->weights != STICKSLIP_WEIGHTS_COMMITTED &&
+         o->weights != STICKSLIP_WEIGHTS_PERSISTENT && o->decision != STICKSLIP_DECISION_POINTS;
+}
+static inline int32_t every_previous_tangent(every *c) {
+  const scene *s = &c->h.s;
+  if (!every_has_derivatives(c)) return STICKSLIP_OK;
+  return every_triplets(c, 5, stickslip_interface_previous_tangent_coo(s->interface, s->x1, s->x2, s->lambda, MOST_ENTRIES,
+                                                                       c->h.row_numbers, c->h.columns, c->h.values, &c->h.count));
+}
+static inline int32_t every_adjoint(every *c) {
+  const scene *s = &c->h.s;
+  if (!every_has_derivatives(c)) return STICKSLIP_OK;
+  return stickslip_interface_adjoint(s->interface, s->x1, s->x2, s->lambda, c->a1, c->a2, c->a_rows, &c->gradient);
+}
+static inline int32_t every_sensitivity(every *c) {
+  const scene *s = &c->h.s;
+  if (!every_has_derivatives(c)) return STICKSLIP_OK;
+  return stickslip_interface_sensitivity(s->interface, s->x1, s->x2, s->lambda, &c->direction, c->change1, c->change2,
+                                         c->change_rows);
 }
 
 static inline int32_t every_normal_derivatives(every *c) { return call_normal_derivatives(&c->e); }
@@ -507,6 +545,9 @@ static const entry_point every_call[] = {
     {"interface_heat", every_heat},
     {"interface_heat_tangent_coo", every_heat_coo},
     {"node_heat", every_node_heat},
+    {"interface_previous_tangent_coo", every_previous_tangent},
+    {"interface_adjoint", every_adjoint},
+    {"interface_sensitivity", every_sensitivity},
     {"interface_adjust", every_adjust},
     {"interface_shape_offsets", every_shape_offsets},
     {"interface_set_constraints", every_constraints},
@@ -656,10 +697,13 @@ static inline int32_t every_refusal(int k) {
     case 83: return stickslip_lines_split_creases(NULL, 1.0, 0, 0, NULL, NULL, NULL);
     case 84: return stickslip_options_paper(NULL);
     case 85: return stickslip_options_method(NULL, NULL);
+    case 86: return stickslip_interface_previous_tangent_coo(NULL, NULL, NULL, NULL, 0, NULL, NULL, NULL, NULL);
+    case 87: return stickslip_interface_adjoint(NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL);
+    case 88: return stickslip_interface_sensitivity(NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL);
     default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
   }
 }
-enum { REFUSALS = 87 };
+enum { REFUSALS = 90 };
 
 /* Room and sizes for the structs that come out. */
 static inline void every_room(every *c) {
@@ -671,6 +715,15 @@ static inline void every_room(every *c) {
   memset(&c->heat_nodes, 0, sizeof c->heat_nodes);
   c->heat_nodes.struct_size = sizeof c->heat_nodes;
   c->heat_nodes.flux = c->heat_flux;
+  /* A mortar side that does not move has no derivatives by its positions of now. */
+  const int moves = h->s.options.mortar_side == STICKSLIP_MORTAR_DEFORMABLE;
+  dependence *to = &c->slopes, *along = &c->along;
+  c->gradient = (stickslip_gradient){.struct_size = sizeof c->gradient, .previous1 = to->previous1, .previous2 = to->previous2,
+      .now1 = to->now1, .now2 = moves ? to->now2 : NULL, .friction = to->friction, .shear_limit = to->shear_limit,
+      .offsets1 = to->offsets1, .offsets2 = to->offsets2};
+  c->direction = (stickslip_direction){.struct_size = sizeof c->direction, .previous1 = along->previous1,
+      .previous2 = along->previous2, .now1 = along->now1, .now2 = moves ? along->now2 : NULL, .friction = along->friction,
+      .shear_limit = along->shear_limit, .offsets1 = along->offsets1, .offsets2 = along->offsets2};
   c->counters.struct_size = sizeof c->counters;
   memset(&c->equilibrium, 0, sizeof c->equilibrium);
   c->equilibrium.struct_size = sizeof c->equilibrium;
@@ -713,6 +766,10 @@ static inline void every_init(every *c) {
     c->heat_t2[a] = -0.5 * a;
     c->heat_e2[a] = c->h.s.options.index_base + UNKNOWNS + N1 + a;
   }
+  double *along = (double *)&c->along;
+  for (int k = 0; k < (int)(sizeof c->along / sizeof *along); ++k) along[k] = 0.25 * (k % 7) - 0.5;
+  for (int k = 0; k < X1; ++k) c->a1[k] = c->a_rows[k] = 0.125 * (k % 11) - 0.5;
+  for (int k = 0; k < X2; ++k) c->a2[k] = 0.5 * (k % 5) - 1.0;
   every_room(c);
 }
 
@@ -734,13 +791,14 @@ static inline int every_equal(every *a, every *b) {
          SAME(suspect_ratios) && SAME(suspect_causes) && SAME(diagnosis_text) && SAME(diagnosis.overlap) &&
          SAME(diagnosis.error) && SAME(step_limit) && SAME(equilibrium) &&
          SAME(node_equilibrium) && SAME(facet_normal) && SAME(condensed_lambda) && SAME(condensed_rows) &&
-         SAME(condensed_force) && SAME(node_condensed) && SAME(condensed_bits) && SAME(condensed_counts) &&
+         SAME(condensed_force) && SAME(node_condensed) && SAME(triplet_bits) && SAME(triplet_counts) &&
          SAME(e.normal_derivatives) && SAME(e.turn) && SAME(turned) && SAME(plan_rows) && SAME(plan_counts) &&
          SAME(row_list) && SAME(row_offsets) && SAME(plan_columns) && SAME(row_list32) && SAME(row_offsets32) &&
          SAME(rows32) && SAME(columns32) && SAME(plan_values) && SAME(rigid_x) && SAME(resultant) && SAME(turned_motion) &&
          SAME(rigid_count) && SAME(rigid_rows) && SAME(rigid_columns) && SAME(rigid_values) && SAME(law_states) &&
          SAME(law_count) && SAME(heat1) && SAME(heat2) && SAME(heat_flux) && SAME(heat_sides) && SAME(heat_slopes) &&
-         SAME(heat_conductance) && SAME(heat_count) && SAME(heat_columns);
+         SAME(heat_conductance) && SAME(heat_count) && SAME(heat_columns) && SAME(slopes) &&
+         SAME(change1) && SAME(change2) && SAME(change_rows);
 #undef SAME
 }
 

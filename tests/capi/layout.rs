@@ -209,6 +209,28 @@ fn layouts() -> Vec<Layout> {
             time
         }),
         layout!(stickslip_heat_nodes { struct_size, conductance, flux, jump, friction, area }),
+        layout!(stickslip_gradient {
+            struct_size,
+            previous1,
+            previous2,
+            now1,
+            now2,
+            friction,
+            shear_limit,
+            offsets1,
+            offsets2
+        }),
+        layout!(stickslip_direction {
+            struct_size,
+            previous1,
+            previous2,
+            now1,
+            now2,
+            friction,
+            shear_limit,
+            offsets1,
+            offsets2
+        }),
         layout!(stickslip_node {
             struct_size,
             slip,

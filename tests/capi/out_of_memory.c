@@ -68,7 +68,7 @@ static int outputs_equal(const every *a, const every *b) {
          SAME(suspect_nodes) && SAME(suspect_directions) && SAME(suspect_ratios) && SAME(suspect_causes) &&
          SAME(diagnosis_text) && SAME(step_limit) && SAME(equilibrium) && SAME(node_equilibrium) &&
          SAME(condensed_lambda) && SAME(condensed_rows) && SAME(condensed_force) && SAME(node_condensed) &&
-         SAME(e.normal_derivatives) && SAME(e.turn);
+         SAME(e.normal_derivatives) && SAME(e.turn) && SAME(slopes) && SAME(change1) && SAME(change2) && SAME(change_rows);
 #undef LONG
 #undef SAME
 }

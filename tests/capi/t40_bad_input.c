@@ -116,6 +116,8 @@ static void set_up(const char *name, int32_t base) {
     CHECK_OK(stickslip_interface_heat_tangent_coo(s->interface, s->x1, s->x2, s->lambda, &b.heat, b.every.heat_t1,
                                                   b.every.heat_t2, b.every.heat_e1, b.every.heat_e2, b.which, 0, NULL, NULL,
                                                   NULL, &b.capacity));
+  } else if (strcmp(name, "interface_previous_tangent_coo") == 0) {
+    CHECK_OK(stickslip_interface_previous_tangent_coo(s->interface, s->x1, s->x2, s->lambda, 0, NULL, NULL, NULL, &b.capacity));
   } else if (strcmp(name, "interface_pattern_coo") == 0) {
     CHECK_OK(stickslip_interface_pattern_coo(s->interface, s->x1, s->x2, 0, NULL, NULL, &b.capacity));
   } else if (carried) {
@@ -203,6 +205,13 @@ static void tell(void) {
   REALS("temperatures1", b.every.heat_t1), REALS("temperatures2", b.every.heat_t2);
   INTEGERS("equations1", b.every.heat_e1), INTEGERS("equations2", b.every.heat_e2), NUMBER(INT32, which);
   NUMBER(REAL, jump), NUMBER(REAL, pressure), NUMBER(REAL, node_gap), NUMBER(REAL, area), NUMBER(REAL, work);
+  bad_struct("gradient", "gradient", &b.every.gradient);
+  bad_struct("direction", "direction", &b.every.direction);
+  REALS("direction.previous1", b.every.along.previous1), REALS("direction.previous2", b.every.along.previous2);
+  REALS("direction.now1", b.every.along.now1), REALS("direction.now2", b.every.along.now2);
+  REALS("direction.friction", b.every.along.friction), REALS("direction.shear_limit", b.every.along.shear_limit);
+  REALS("direction.offsets1", b.every.along.offsets1), REALS("direction.offsets2", b.every.along.offsets2);
+  REALS("a1", b.every.a1), REALS("a2", b.every.a2), REALS("a_rows", b.every.a_rows);
   bad_struct("rigid_body", "body", &b.rigid.body);
   bad_struct("rigid_motion", "motion", &b.rigid.motion);
   bad_struct("rigid_motion", "turned_motion", &b.every.turned_motion);
