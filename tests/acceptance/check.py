@@ -50,6 +50,7 @@ from springs import springs  # noqa: E402
 from stepping import stepping  # noqa: E402
 from thrown import thrown  # noqa: E402
 from timed import timed  # noqa: E402
+from timed_dynamics import timed_dynamics  # noqa: E402
 from touching import touching_full, touching_quick  # noqa: E402
 from turning import turning  # noqa: E402
 from verdict import Verdicts  # noqa: E402
@@ -108,6 +109,7 @@ GROUPS = {
     "stepping": stepping,
     "thrown": thrown,
     "timed": timed,
+    "timed_dynamics": timed_dynamics,
     "touching": touching_quick,
     "touching_full": touching_full,  # some minutes; not among the tests
     "turning": turning,

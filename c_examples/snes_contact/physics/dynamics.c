@@ -99,6 +99,19 @@ static PetscErrorCode set_loads(Physics *physics)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Supports that hold in the step to come: which displacements have inertia of their own, and how what is held is accelerated from the
+ * start of the step on. Who is let go keeps the velocity that the support has given him; who is caught loses his in the step. */
+PetscErrorCode dynamics_hold(Physics *physics)
+{
+  Dynamics *d = physics->dynamics;
+  PetscFunctionBegin;
+  if (!physics->timed) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < physics->unknowns.n_local; k++)
+    if (d->entries[k] != MASS_NONE) d->entries[k] = entry_held(physics, k) ? MASS_PRESCRIBED : MASS_FREE;
+  PetscCall(supports_rates(physics, d->t_n, SUPPORT_ACCELERATION, d->prescribed));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode dynamics_begin(Physics *physics)
 {
   Dynamics          *d = physics->dynamics;
@@ -106,6 +119,7 @@ PetscErrorCode dynamics_begin(Physics *physics)
   PetscScalar       *impulse;
   PetscFunctionBegin;
   d->dt = physics->t - d->t_n;
+  PetscCall(dynamics_hold(physics));
   PetscCall(supports_rates(physics, physics->t, SUPPORT_VELOCITY, d->v_next));
   PetscCall(supports_rates(physics, physics->t, SUPPORT_ACCELERATION, d->prescribed_next));
   PetscCall(VecZeroEntries(d->impulse));

@@ -67,6 +67,7 @@ PetscErrorCode dynamics_accept(Physics *physics);
 PetscErrorCode dynamics_destroy(Physics *physics);
 /* dynamics.c: at the start of a step to physics->t; then in place of bulk_forces(), bulk_stiffness() and the loads */
 PetscErrorCode dynamics_begin(Physics *physics);
+PetscErrorCode dynamics_hold(Physics *physics); /* which displacements are held in the step that begins */
 PetscErrorCode dynamics_forces(Physics *physics, Vec f_local, PetscInt *status);
 PetscErrorCode dynamics_stiffness(Physics *physics, Mat matrix, PetscInt *status);
 PetscErrorCode dynamics_look(const Physics *physics, StepView *step);

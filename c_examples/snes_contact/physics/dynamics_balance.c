@@ -126,6 +126,7 @@ static PetscErrorCode correct_velocity(Physics *physics)
   const PetscScalar *by, *p;
   PetscScalar       *f, *next;
   Vec                rhs, change;
+  Mat                matrix;
   PetscFunctionBegin;
   PetscCall(DMCreateGlobalVector(mesh->dm, &rhs));
   PetscCall(VecDuplicate(rhs, &change));
@@ -141,6 +142,12 @@ static PetscErrorCode correct_velocity(Physics *physics)
   PetscCall(VecZeroEntries(rhs));
   PetscCall(DMLocalToGlobalBegin(mesh->dm, d->middle, ADD_VALUES, rhs));
   PetscCall(DMLocalToGlobalEnd(mesh->dm, d->middle, ADD_VALUES, rhs));
+  if (physics->timed) {
+    PetscCall(MatDuplicate(d->matrix, MAT_COPY_VALUES, &matrix));
+    PetscCall(timed_identity(physics, matrix));
+    PetscCall(KSPSetOperators(d->solver, matrix, matrix));
+    PetscCall(MatDestroy(&matrix));
+  }
   PetscCall(KSPSolve(d->solver, rhs, change));
   PetscCall(KSPGetConvergedReason(d->solver, &reason));
   PetscCheck(reason > 0 || reason == KSP_DIVERGED_ITS, PETSC_COMM_WORLD, PETSC_ERR_NOT_CONVERGED, "the mass matrix is not solved: %s",

@@ -92,6 +92,7 @@ PetscErrorCode dynamics_create(Scene *scene, Physics *physics)
     PetscCall(VecZeroEntries(*vectors[k]));
   }
   PetscCall(mass_create(physics));
+  PetscCall(dynamics_hold(physics));
   for (PetscInt c = 0; c < physics->cells.n; c++) {
     for (PetscInt r = 0; r < physics->n_rigids; r++)
       if (physics->cells.body[c] == physics->rigids[r].body) physics->rigids[r].part = physics->cells.part[c];

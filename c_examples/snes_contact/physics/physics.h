@@ -170,8 +170,8 @@ PetscErrorCode supports_label(Physics *physics);
 PetscBool supports_agree(const Physics *physics, const Support *a, const Support *b, PetscInt vertex, const PetscReal X[3],
                          int component);
 PetscErrorCode supports_values(Physics *physics, PetscReal t); /* into prescribed_local */
-/* velocities or accelerations of what is prescribed: at a kink of a curve the mean of before and after, at the start and the end of the run
- * what is within it; of vertices of rigid bodies none */
+/* velocities or accelerations of what is prescribed: at a kink of a curve the mean of before and after, where a support begins or ceases to
+ * hold what is within its time; of vertices of rigid bodies none */
 typedef enum { SUPPORT_PLACE, SUPPORT_VELOCITY, SUPPORT_ACCELERATION } SupportMotion;
 PetscErrorCode supports_rates(Physics *physics, PetscReal t, SupportMotion motion, Vec local);
 PetscErrorCode supports_reactions(Physics *physics);
@@ -197,6 +197,7 @@ PetscErrorCode timed_accept(Physics *physics);
 PetscErrorCode timed_place(Physics *physics, Vec x);                    /* puts what is held where it belongs */
 PetscErrorCode timed_residual(Physics *physics, PetscReal scale, Vec r); /* in place of what their rows say */
 PetscErrorCode timed_rows(Physics *physics, PetscReal scale, Mat matrix);
+PetscErrorCode timed_identity(Physics *physics, Mat matrix);            /* rows and columns of what is held: the identity's */
 PetscErrorCode timed_forces(Physics *physics, PetscScalar *forces);     /* adds reactions that fade, at physics->t */
 PetscBool      timed_bend(const Physics *physics, PetscReal t);         /* is one let go or activated at t, or has faded? */
 PetscInt       timed_times(const Physics *physics, PetscReal times[]);  /* of such changes, but for fading, 2 a support at most */

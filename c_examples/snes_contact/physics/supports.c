@@ -116,6 +116,13 @@ PetscErrorCode supports_label(Physics *physics)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Of what is to be taken the rate at t, as `sides` of prescribed_rate(): where it begins to hold after, where it ceases to before. */
+static int sides_within(const Physics *physics, const Support *support, PetscReal t)
+{
+  if (t <= 0 || (support->timed && curve_same_time(t, support->from))) return 1;
+  return t >= physics->end || (support->timed && curve_same_time(t, support->until)) ? 0 : 2;
+}
+
 /* A supported vertex of this rank: its place from the support's origin, the support's displacement or its rate there, its displacement
  * of now, and its entries of a local vector. */
 typedef struct {
@@ -158,7 +165,7 @@ static PetscErrorCode visit(Physics *physics, Vec local, PetscReal t, SupportMot
       if (motion == SUPPORT_PLACE)
         prescribed_displacement(support, t, mesh->here[points[k]], X, vertex.u);
       else
-        prescribed_rate(support, t, t <= 0 ? 1 : t >= physics->end ? 0 : 2, (PetscBool)(motion == SUPPORT_ACCELERATION), mesh->here[points[k]], X, vertex.u);
+        prescribed_rate(support, t, sides_within(physics, support, t), (PetscBool)(motion == SUPPORT_ACCELERATION), mesh->here[points[k]], X, vertex.u);
       mesh_rotate_vector(mesh, vertex.u);
       for (int i = 0; i < 3; i++) {
         vertex.arm[i] = X[i] - support->origin[i];

@@ -80,14 +80,16 @@ PetscBool timed_bend(const Physics *physics, PetscReal t)
   return PETSC_FALSE;
 }
 
-/* A step, and no longer: while it lasts the model has a force that the scene does not name. */
+/* A step, and no longer: while it lasts the model has a force that the scene does not name. With inertia there is none: what is let go
+ * begins to move, however large the force was. */
 void timed_fade(Physics *physics, PetscInt n, const PetscReal times[], PetscReal longest)
 {
+  if (physics->dynamics) n = 0;
   for (PetscInt s = 0; s < physics->n_supports; s++) {
     Support *support = &physics->supports[s];
     for (PetscInt k = 0; k < n && support->timed && support->fade < 0; k++) {
       if (timed_past(times[k], support->until)) support->fade = PetscMin(times[k] - support->until, longest);
     }
-    if (support->timed && support->fade < 0) support->fade = 0; /* it holds up to the end */
+    if (support->timed && support->fade < 0) support->fade = 0; /* it holds up to the end, or is dynamic */
   }
 }

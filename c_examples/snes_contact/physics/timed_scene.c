@@ -23,8 +23,6 @@ PetscErrorCode timed_read(Scene *scene, Physics *physics, Support *support)
   if (scene_has(scene, name, "fade") && !until) scene_fail(scene, name, "fade", "only with `until`: how long the reaction takes to fade.");
   if (scene_has(scene, name, "fade") && support->fade < 0) scene_fail(scene, name, "fade", "it cannot be negative.");
   if (!support->timed) PetscFunctionReturn(PETSC_SUCCESS);
-  if (physics->dynamics || scene_has(scene, "dynamics", "rho_inf"))
-    scene_fail(scene, name, from ? "from" : "until", "`dynamics` has supports that hold from start to end only.");
   if (support->rigid >= 0)
     scene_fail(scene, name, from ? "from" : "until", "its body is rigid, whose supports hold from start to end: give it a force, or mesh it.");
   if (support->from > 0 && (support->rotate[0] != 0 || support->rotate[1] != 0 || support->rotate[2] != 0))
