@@ -51,6 +51,7 @@ from stepping import stepping  # noqa: E402
 from thrown import thrown  # noqa: E402
 from timed import timed  # noqa: E402
 from timed_dynamics import timed_dynamics  # noqa: E402
+from timed_rigid import timed_rigid  # noqa: E402
 from touching import touching_full, touching_quick  # noqa: E402
 from turning import turning  # noqa: E402
 from verdict import Verdicts  # noqa: E402
@@ -110,6 +111,7 @@ GROUPS = {
     "thrown": thrown,
     "timed": timed,
     "timed_dynamics": timed_dynamics,
+    "timed_rigid": timed_rigid,
     "touching": touching_quick,
     "touching_full": touching_full,  # some minutes; not among the tests
     "turning": turning,

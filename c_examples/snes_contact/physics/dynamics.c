@@ -120,6 +120,7 @@ PetscErrorCode dynamics_begin(Physics *physics)
   PetscFunctionBegin;
   d->dt = physics->t - d->t_n;
   PetscCall(dynamics_hold(physics));
+  rigids_lead(physics, physics->t);
   PetscCall(supports_rates(physics, physics->t, SUPPORT_VELOCITY, d->v_next));
   PetscCall(supports_rates(physics, physics->t, SUPPORT_ACCELERATION, d->prescribed_next));
   PetscCall(VecZeroEntries(d->impulse));

@@ -97,6 +97,7 @@ PetscErrorCode dynamics_create(Scene *scene, Physics *physics)
     for (PetscInt r = 0; r < physics->n_rigids; r++)
       if (physics->cells.body[c] == physics->rigids[r].body) physics->rigids[r].part = physics->cells.part[c];
   }
+  rigids_start(physics);
   PetscCall(supports_values(physics, 0));
   PetscCall(VecCopy(physics->prescribed_local, d->u));
   PetscCall(start(physics));
