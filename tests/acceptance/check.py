@@ -25,6 +25,7 @@ from loads import loads  # noqa: E402
 from normals import normals  # noqa: E402
 from normals_full import normals_full, normals_iterations  # noqa: E402
 from heat import heat  # noqa: E402
+from heat_moving import heat_moving  # noqa: E402
 from offsets import offsets  # noqa: E402
 from plane import plane, plane_ball  # noqa: E402
 from plane_analytic import plane_analytic  # noqa: E402
@@ -79,6 +80,7 @@ GROUPS = {
     "normals_full": normals_full,  # ten minutes; not among the tests
     "normals_iterations": normals_iterations,  # some minutes; not among the tests
     "heat": heat,
+    "heat_moving": heat_moving,
     "offsets": offsets,
     "plane": plane,
     "plane_analytic": plane_analytic,

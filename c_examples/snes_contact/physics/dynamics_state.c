@@ -139,6 +139,7 @@ PetscErrorCode dynamics_destroy(Physics *physics)
   list_vectors(d, vectors);
   for (int k = 0; k < N_VECTORS; k++)
     PetscCall(VecDestroy(vectors[k]));
+  PetscCall(VecDestroy(&d->thermal));
   PetscCall(MatDestroy(&d->matrix));
   PetscCall(KSPDestroy(&d->solver));
   PetscCall(PetscFree(d->velocity));
