@@ -71,12 +71,16 @@ RIGID = {
 def with_rigid(verdicts, driver):
     """Rigid bodies beside multigrid, in both kinds of systems, on ranks: tools and rollers with equations of their own."""
     path = write(RIGID, driver.output / "rigid.yaml")
+    all_held = {body: {"body": body, "components": ["x", "y", "z", "rx", "ry", "rz"], "value": [0, 0, -0.01] if body == "plate" else [0.005, 0, 0]} for body in ("plate", "tool")}
+    held = write({**{k: v for k, v in RIGID.items() if k not in ("loads", "press", "push", "hold")}, "supports": ["foot", "grip", "guide"], "grip": all_held["plate"],
+                  "guide": all_held["tool"]}, driver.output / "rigid_held.yaml")
     swapped = write({**RIGID, "top": {"nonmortar": "plate.zmin", "mortar": "block.zmax", "friction": 0.4}}, driver.output / "rigid_swapped.yaml")
     for scene, name, options, ranks in (
         (path, "rigid bodies, condensed", (*dual(path), "-unknowns", "displacements"), (1, 3)),
         (path, "rigid bodies, multipliers", (), (1, 2)),
         (path, "rigid bodies, augmented", ("-top_form", "augmented", "-side_form", "augmented"), (1,)),
         (swapped, "rigid bodies, non-mortar", (), (1, 2)),
+        (held, "rigid bodies that are held, multipliers", (), (1, 2)),
         ("roller", "roller, condensed", (*dual("roller"), "-unknowns", "displacements"), (1,)),
         ("roller", "roller, multipliers", (), (1,)),
     ):

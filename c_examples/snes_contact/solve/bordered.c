@@ -145,13 +145,19 @@ static PetscErrorCode destroy(PC pc)
 PetscErrorCode bordered_set(PC pc, const Physics *physics, PC *inner)
 {
   Bordered *bordered;
+  PetscInt  n = 0, *equations;
   PetscFunctionBegin;
-  PetscCall(PetscNew(&bordered));
-  PetscCall(PetscMalloc1(RIGID_UNKNOWNS * physics->n_rigids, &bordered->equations));
+  PetscCall(PetscMalloc1(RIGID_UNKNOWNS * physics->n_rigids, &equations));
   for (PetscInt k = 0; k < RIGID_UNKNOWNS * physics->n_rigids; k++) {
     const PetscInt equation = physics->rigids[k / RIGID_UNKNOWNS].equations[k % RIGID_UNKNOWNS];
-    if (equation >= 0) bordered->equations[bordered->n++] = equation;
+    if (equation >= 0) equations[n++] = equation;
   }
+  *inner = pc;
+  if (!n) PetscCall(PetscFree(equations));
+  if (!n) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscNew(&bordered));
+  bordered->n         = n;
+  bordered->equations = equations;
   PetscCall(PCCreate(PETSC_COMM_WORLD, &bordered->inner));
   *inner = bordered->inner;
   PetscCall(PCSetType(pc, PCSHELL));

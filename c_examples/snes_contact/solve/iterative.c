@@ -120,8 +120,7 @@ PetscErrorCode iterative_set(Solve *solve, KSP ksp)
   PetscCall(KSPSetPCSide(iterative->krylov, PC_RIGHT));
   PetscCall(KSPSetTolerances(iterative->krylov, RTOL, 0, PETSC_DEFAULT, MOST_ITERATIONS));
   PetscCall(KSPGetPC(iterative->krylov, &pc));
-  iterative->bodies = pc;
-  if (solve->physics->n_rigids) PetscCall(bordered_set(pc, solve->physics, &iterative->bodies));
+  PetscCall(bordered_set(pc, solve->physics, &iterative->bodies));
   PetscCall((solve->contact->condensed ? reduced_set : saddle_set)(iterative->bodies, solve->contact));
   PetscCall(progress_watch(solve, NULL, iterative->krylov));
   PetscCall(KSPSetFromOptions(iterative->krylov));
