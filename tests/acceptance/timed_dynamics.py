@@ -26,6 +26,7 @@ def timed_dynamics(verdicts, driver):
     to_the_end(verdicts, driver)
     dropped(verdicts, driver)
     gone_on(verdicts, driver)
+    cut_back(verdicts, driver)
 
 
 def run(driver, name, scene, *options, **more):
@@ -200,9 +201,9 @@ def dropped(verdicts, driver):
     verdicts.at_least("dropped: pressed", max(step["interfaces"]["contact"]["force"][2] for step in late.steps), 1, "it meets the base")
 
 
-def gone_on(verdicts, driver):
-    """Caught while it swings, moved and let go again: from restart files before, at and after each change, with both kinds of schemes."""
-    scene = {
+def beam(**steps):
+    """A rubber beam whose end is bent, let go, caught while it swings, moved and let go again."""
+    return {
         "schema": 1,
         "bodies": ["beam"],
         "beam": {**ELASTIC, "lower": [0, 0, 0], "upper": [4, 1, 1], "cells": [8, 1, 2], "material": "neo_hooke"},
@@ -211,12 +212,16 @@ def gone_on(verdicts, driver):
         "foot": {"surface": "beam.xmin", "components": ["x", "y", "z"]},
         "bend": {"surface": "beam.xmax", "components": ["x", "z"], "value": [-0.2, 0, 1], "curve": [0, 0, 0.4, 1], "until": 0.4, "fade": 0.1},
         "again": {"surface": "beam.xmax", "components": ["x", "z"], "value": [0, 0, 0.2], "curve": [0.7, 0, 0.9, 1], "from": 0.7, "until": 0.9},
-        "steps": {"end": 1.2, "count": 24},
+        "steps": steps,
         "probes": ["end"],
         "end": {"body": "beam", "point": [4, 0, 0]},
     }
+
+
+def gone_on(verdicts, driver):
+    """From restart files before, at and after each change, with both kinds of schemes."""
     for rho in (1, 0.7):
-        path, options = write(scene, driver.output / "gone_on.yaml"), ("-dynamics_rho_inf", rho, *BITS)
+        path, options = write(beam(end=1.2, count=24), driver.output / "gone_on.yaml"), ("-dynamics_rho_inf", rho, *BITS)
         whole = driver.run(path, *options, *KEEP, label=f"gone_on_{rho}")
         found = places(whole, "end")
         verdicts.below(f"caught, rho_inf {rho}: moved from where it was", np.abs(found[0.9] - found[0.7] - [0, 0, 0.2])[[0, 2]].max(), EXACT_BOUND, "while it is held")
@@ -227,3 +232,16 @@ def gone_on(verdicts, driver):
             again = driver.run(path, *options, *KEEP, "-restart", whole.directory / f"restart_{step}.bin", label="gone_on_again")
             differ = [key for key in whole.summary if key not in COSTS and whole.summary[key] != again.summary.get(key)]
             verdicts.true(f"caught, rho_inf {rho}, restart from step {step}: bits", not differ, "; ".join(differ) or "those of the run that goes through")
+
+
+def cut_back(verdicts, driver):
+    """Steps that fail beside a change leave nothing behind: the run that was cut back, and one with the same steps."""
+    for rho in (1, 0.7):
+        options = ("-snes_max_it", 3, "-dynamics_rho_inf", rho)
+        cut = run(driver, "cut", beam(times=[0.2, 0.4, 0.7, 0.9, 1.2], predictor=False), *options, label=f"cut_{rho}")
+        again = run(driver, "cut_again", beam(times=[step["t"] for step in cut.steps], predictor=False), *options, label=f"cut_again_{rho}")
+        verdicts.true(f"cut back, rho_inf {rho}: steps were", cut.summary["cutbacks"] > 0 and again.summary["cutbacks"] == 0, f"{cut.summary['cutbacks']}")
+        for name in ("bend", "again"):
+            verdicts.true(f"cut back, rho_inf {rho}: '{name}' ends in time", any(abs(step["t"] - t) < 1e-12 for step in cut.steps for t in ([0.4] if name == "bend" else [0.9])), "a step ends there")
+        same = (cut.directory / "energy.csv").read_text() == (again.directory / "energy.csv").read_text()
+        verdicts.true(f"cut back, rho_inf {rho}: equal bits", same, f"{len(cut.steps)} steps")
