@@ -36,6 +36,7 @@ static PetscErrorCode solve_in_turns(Model *model, Run *run, PetscBool *done)
   PetscFunctionBegin;
   for (;;) {
     if (!model->physics.dynamics) PetscCall(loads_values(&model->physics));
+    else if (heat->two_way) PetscCall(dynamics_loads(&model->physics));
     PetscCall(newton_solve(&model->solve, &run->past, run->x, done));
     model->solve.iterations += model->solve.newton.iterations;
     if (!*done || !heat->on) PetscFunctionReturn(PETSC_SUCCESS);

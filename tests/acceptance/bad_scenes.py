@@ -290,8 +290,6 @@ BAD_SCENES += [
     BadScene("both_rigid", *tool(f"reference: [5, 0, 0], {CUBE}", "other: {type: rigid, reference: [0, 0, 0], from: analytic, shape: "
              "plane, point: [0, 0, 0], direction: [0, 0, 1]}\nbetween: {nonmortar: tool.zmin, mortar: other.surface}"), "between.mortar",
              says="both sides are rigid"),
-    BadScene("rigid_by_multigrid", *tool(f"reference: [5, 0, 0], {CUBE}"), "solver", says="does not know rigid bodies",
-             options=("-solver", "iterative", "-unknowns", "displacements", "-base_basis", "dual")),
     BadScene("rigid_and_condensed", *tool("reference: [5, 0, 0], from: box, lower: [5, 0, 0], upper: [6, 1, 1], cells: [1, 1, 1]",
              "between: {nonmortar: tool.zmin, mortar: floor.zmax}"), "between.nonmortar", says="the mortar side only",
              options=("-unknowns", "displacements")),

@@ -27,6 +27,7 @@ from loads import loads  # noqa: E402
 from normals import normals  # noqa: E402
 from normals_full import normals_full, normals_iterations  # noqa: E402
 from heat import heat  # noqa: E402
+from heat_moving import heat_moving  # noqa: E402
 from offsets import offsets  # noqa: E402
 from plane import plane, plane_ball  # noqa: E402
 from plane_analytic import plane_analytic  # noqa: E402
@@ -52,6 +53,8 @@ from springs import springs  # noqa: E402
 from stepping import stepping  # noqa: E402
 from thrown import thrown  # noqa: E402
 from timed import timed  # noqa: E402
+from timed_dynamics import timed_dynamics  # noqa: E402
+from timed_rigid import timed_rigid  # noqa: E402
 from touching import touching_full, touching_quick  # noqa: E402
 from turning import turning  # noqa: E402
 from verdict import Verdicts  # noqa: E402
@@ -81,6 +84,7 @@ GROUPS = {
     "normals_full": normals_full,  # ten minutes; not among the tests
     "normals_iterations": normals_iterations,  # some minutes; not among the tests
     "heat": heat,
+    "heat_moving": heat_moving,
     "offsets": offsets,
     "plane": plane,
     "plane_analytic": plane_analytic,
@@ -112,6 +116,8 @@ GROUPS = {
     "stepping": stepping,
     "thrown": thrown,
     "timed": timed,
+    "timed_dynamics": timed_dynamics,
+    "timed_rigid": timed_rigid,
     "touching": touching_quick,
     "touching_full": touching_full,  # some minutes; not among the tests
     "turning": turning,

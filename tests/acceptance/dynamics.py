@@ -466,7 +466,7 @@ REFUSED = {
     "mass and density": ({**WITH_BRICK, "brick": {**BRICK, "mass": 1}}, "brick.density"),
     "an inertia that no body has": ({**WITH_BRICK, "brick": {**BRICK, "density": None, "mass": 1, "inertia": [1, 1, 3]}}, "brick.inertia"),
     "a reference point beside the centre": ({**WITH_BRICK, "brick": {**BRICK, "reference": [0.5, 0.5, 5]}}, "brick.reference"),
-    "a rigid body moved in part": ({**WITH_BRICK, "brick": BRICK, "supports": ["push"], "push": {"body": "brick", "components": ["x"], "value": [1, 0, 0]}}, "push.value"),
+    "a rigid body turned in part": ({**WITH_BRICK, "brick": BRICK, "supports": ["push"], "push": {"body": "brick", "components": ["rx"], "rotate": [1, 0, 0]}}, "push.rotate"),
     "rho_inf of a free rigid body": ({**WITH_BRICK, "brick": BRICK, "dynamics": {"rho_inf": 0.9}}, "dynamics.rho_inf"),
 }
 

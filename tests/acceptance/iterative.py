@@ -1,6 +1,7 @@
 """Checks of `solver: iterative`: multigrid on the reduced form takes Newton's method the way of the direct solver, in few
 iterations, on several ranks too; and where it cannot be, or does not get through, the run says so."""
 
+import numpy as np
 from condensed import FEWER, QUIET, difference, iterations
 from scene import interfaces, write
 
@@ -42,12 +43,74 @@ PRESSED = {
 }
 
 
+# A block between a rigid plate and a rigid tool in closed form, in a frame that is turned; both are pressed and turned by forces, and the plate has a
+# support that lets it go.
+RIGID = {
+    "schema": 1,
+    "bodies": ["block", "plate", "tool"],
+    "block": {"type": "box", "cells": [4, 4, 6], "lower": [0, 0, 0], "upper": [1, 1, 0.6], "young": 1000, "poisson": 0.3},
+    "plate": {"type": "rigid", "from": "box", "lower": [-0.2, -0.2, 0.6], "upper": [1.2, 1.2, 0.8], "cells": [3, 3, 1], "reference": [0.5, 0.5, 0.7]},
+    "tool": {"type": "rigid", "from": "analytic", "shape": "cylinder", "point": [-0.7, 0.5, 0.3], "direction": [0, 1, 0], "radius": 0.7, "reference": [-0.7, 0.5, 0.3]},
+    "supports": ["foot", "hold", "guide"],
+    "foot": {"surface": "block.zmin", "components": ["x", "y", "z"]},
+    "hold": {"body": "plate", "components": ["rx", "ry", "rz"], "until": 0.5},
+    "guide": {"body": "tool", "components": ["rx", "ry", "rz"]},
+    "loads": ["press", "push"],
+    "press": {"body": "plate", "force": [0.5, 0.2, -8], "moment": [0.2, 0.1, 0.05]},
+    "push": {"body": "tool", "force": [2, 0.2, -0.1]},
+    "interfaces": ["top", "side"],
+    "top": {"nonmortar": "block.zmax", "mortar": "plate.zmin", "friction": 0.4},
+    "side": {"nonmortar": "flank", "mortar": "tool.surface", "friction": 0.3},
+    "surfaces": ["flank"],
+    "flank": {"of": "block.xmin", "within": [-0.1, -0.1, 0.1, 0.1, 1.1, 0.4]},
+    "frame": {"rotate": [20, 10, 5]},
+    "steps": {"count": 2},
+}
+
+
+def with_rigid(verdicts, driver):
+    """Rigid bodies beside multigrid, in both kinds of systems, on ranks: tools and rollers with equations of their own."""
+    path = write(RIGID, driver.output / "rigid.yaml")
+    all_held = {body: {"body": body, "components": ["x", "y", "z", "rx", "ry", "rz"], "value": [0, 0, -0.01] if body == "plate" else [0.005, 0, 0]} for body in ("plate", "tool")}
+    held = write({**{k: v for k, v in RIGID.items() if k not in ("loads", "press", "push", "hold")}, "supports": ["foot", "grip", "guide"], "grip": all_held["plate"],
+                  "guide": all_held["tool"]}, driver.output / "rigid_held.yaml")
+    swapped = write({**RIGID, "top": {"nonmortar": "plate.zmin", "mortar": "block.zmax", "friction": 0.4}}, driver.output / "rigid_swapped.yaml")
+    for scene, name, options, ranks in (
+        (path, "rigid bodies, condensed", (*dual(path), "-unknowns", "displacements"), (1, 3)),
+        (path, "rigid bodies, multipliers", (), (1, 2)),
+        (path, "rigid bodies, augmented", ("-top_form", "augmented", "-side_form", "augmented"), (1,)),
+        (swapped, "rigid bodies, non-mortar", (), (1, 2)),
+        (held, "rigid bodies that are held, multipliers", (), (1, 2)),
+        ("roller", "roller, condensed", (*dual("roller"), "-unknowns", "displacements"), (1,)),
+        ("roller", "roller, multipliers", (), (1,)),
+    ):
+        tag = name.replace(",", "").replace(" ", "_")
+        direct = driver.run(scene, *options, *QUIET, label=f"{tag}_direct")
+        for n in ranks:
+            run = driver.run(scene, *options, *QUIET, "-solver", "iterative", label=f"{tag}_iterative_{n}", ranks=n)
+            as_direct(verdicts, f"{name}, {n} ranks", run, direct)
+        where = [np.array(step["rigid"][body]["displacement"]) for step in run.steps for body in step["rigid"]]
+        there = [np.array(step["rigid"][body]["displacement"]) for step in direct.steps for body in step["rigid"]]
+        verdicts.below(f"{name}: where they are", max(np.abs(a - b).max() for a, b in zip(where, there)) / max(np.abs(b).max() for b in there), SAME, "of all steps")
+
+
+def as_direct(verdicts, name, run, direct):
+    linear = run.summary["linear_solver"]
+    reason = f"{linear['iterations']} in {linear['solves']} solves"
+    verdicts.below(f"{name}: iterative against direct", difference(run, direct), SAME, "of all steps")
+    more = [b - a for a, b in zip(iterations(direct), iterations(run))]
+    verdicts.below(f"{name}: Newton iterations of a step, more or less by", max(map(abs, more)), FEWER, f"{more}")
+    verdicts.below(f"{name}: iterations of a solve", linear["most"], MOST, reason)
+    verdicts.true(f"{name}: without the direct solver", linear["direct"] == 0, reason)
+
+
 def iterative(verdicts, driver):
     for scene in SCENES:
         compare(verdicts, driver, *scene)
     compare(verdicts, driver, write(PRESSED, driver.output / "pressed.yaml"), "", ())
     on_two_ranks(verdicts, driver)
     with_multipliers(verdicts, driver)
+    with_rigid(verdicts, driver)
     gives_up(verdicts, driver)
 
 
@@ -95,13 +158,7 @@ def with_multipliers(verdicts, driver):
         options = (*options, *QUIET)
         direct = driver.run(scene, *options, label=f"{tag}_direct")
         run = driver.run(scene, *options, "-solver", "iterative", label=f"{tag}_iterative", ranks=ranks)
-        linear = run.summary["linear_solver"]
-        reason = f"{linear['iterations']} in {linear['solves']} solves"
-        verdicts.below(f"{name}: iterative against direct", difference(run, direct), SAME, "of all steps")
-        more = [b - a for a, b in zip(iterations(direct), iterations(run))]
-        verdicts.below(f"{name}: Newton iterations of a step, more or less by", max(map(abs, more)), FEWER, f"{more}")
-        verdicts.below(f"{name}: iterations of a solve", linear["most"], MOST, reason)
-        verdicts.true(f"{name}: without the direct solver", linear["direct"] == 0, reason)
+        as_direct(verdicts, name, run, direct)
     held = ("-grip_components", "z", "-contact_friction", "1", *QUIET, "-solver", "iterative")
     run = driver.run("two_blocks", *held, label="held_by_contact_alone", expect=1)
     verdicts.true("multipliers, held by contact alone: refused by name", "solver: a body is held by contact alone" in run.text, "exit code 1")

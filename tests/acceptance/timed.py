@@ -25,6 +25,7 @@ def timed(verdicts, driver):
     clamped(verdicts, driver)
     by_contact(verdicts, driver)
     multigrid(verdicts, driver)
+    on_multipliers(verdicts, driver)
     refused(verdicts, driver)
 
 
@@ -202,19 +203,51 @@ def multigrid(verdicts, driver):
         verdicts.true(f"{name}, multigrid: solves", solver["direct"] == 0 and solver["most"] <= 40, f"{solver}")
 
 
+MORE = {"surface": "upper.zmin", "value": [0.2, 0.03, -0.02], "curve": [0, 0, 1, 1, 2, 0.4]}
+
+
+def on_multipliers(verdicts, driver):
+    """The non-mortar side itself is held, as far as the grip goes. To the end of the run that is what a support does that holds from start to end; let go
+    earlier a pad without friction, or tied to its base, is where it would be had nothing but its grip ever held it."""
+    for law, contact in (("coulomb", {}), ("none", {"law": "none"}), ("tied", {"law": "tied"}), ("augmented", {"form": "augmented"})):
+        for components in (["x"], ["x", "y", "z"]):
+            runs = {}
+            for until in (None, 2, 1, 0):
+                scene = pad(supports=["ground", "grip", "more"] if until != 0 else ["ground", "grip"], contact=contact)
+                if law in ("none", "tied"):
+                    del scene["contact"]["friction"]
+                if until != 0:
+                    scene["more"] = {**MORE, "components": components, **({"until": until} if until else {})}
+                if until != 0 or law in ("none", "tied"):
+                    runs[until] = driver.run(write(scene, driver.output / "more.yaml"), "-output_vtu", "none", label=f"more_{law}_{len(components)}_{until}")
+            for what, a, b in (("to the end", 2, None), ("let go", 1, 0)):
+                if b not in runs:
+                    continue
+                tables = [runs[k].interface("contact") for k in (a, b)]
+                apart = np.abs(tables[0]["lambda_n"] - tables[1]["lambda_n"]).max() / np.abs(tables[1]["lambda_n"]).max()
+                verdicts.below(f"nodes with multipliers held {what}, {law}, {''.join(components)}: pressures", apart, SAME_BOUND, "the same")
+                moved = [np.array(runs[k].steps[-1]["reactions"]["ground"]) for k in (a, b)]
+                verdicts.below(f"nodes with multipliers held {what}, {law}, {''.join(components)}: reactions", np.abs(moved[0] - moved[1]).max() / np.abs(moved[1]).max(), SAME_BOUND, "the same")
+    for ranks, options in ((3, ()), (1, ("-solver", "iterative"))):
+        scene = pad(supports=["ground", "grip", "more"], more={**MORE, "components": ["x"], "until": 1})
+        one, other = (driver.run(write(scene, driver.output / "more_ranks.yaml"), *o, ranks=r, label=f"more_ranks_{r}_{len(o)}").interface("contact") for r, o in ((1, ()), (ranks, options)))
+        apart = np.abs(one["lambda_n"] - other["lambda_n"]).max() / np.abs(one["lambda_n"]).max()
+        verdicts.below(f"nodes with multipliers held, {ranks} ranks, {' '.join(options) or 'direct'}: pressures", apart, SAME_BOUND, "the same")
+
+
 def refused(verdicts, driver):
     draw = bar()["draw"]
-    dynamic = {"dynamics": {"rho_inf": 1}, "bar": {**bar()["bar"], "density": 1}}
+    on_contact = pad(supports=["ground", "grip", "more"], more={"surface": "upper.zmin", "components": ["x"], "until": 1}, contact={"basis": "dual"})
     for what, scene, says in (
         ("that ends before it begins", bar(draw={**draw, "from": 1, "until": 0.5}), "draw.until: it must be after `from`, 1"),
         ("beyond the run", bar(draw={**draw, "until": 2.5}), "draw.until: the run ends at t = 2, before 2.5"),
         ("after the run", bar(draw={**{k: v for k, v in draw.items() if k != "until"}, "from": 2}), "draw.from: the run ends at t = 2"),
         ("before the run", bar(draw={**draw, "from": -1}), "draw.from: a run begins at t = 0"),
         ("that fades and stays", bar(draw={**{k: v for k, v in draw.items() if k != "until"}, "fade": 1}), "draw.fade: only with `until`"),
-        ("in dynamics", bar(**dynamic), "draw.until: `dynamics` has supports that hold from start to end only"),
         ("that turns from where it is", bar(draw={**draw, "from": 0.5, "rotate": [1, 0, 0]}), "draw.rotate: a support that is activated"),
         ("on a node of another one", bar(supports=["wall", "rails", "draw", "other"], other=draw), "other.components: 'draw' holds one of its vertices"),
-        ("on multipliers", pad(supports=["ground", "grip", "more"], more={"surface": "upper.zmin", "components": ["x"], "until": 1}), "more.until: it holds nodes of 'upper.zmin'"),
+        ("on multipliers that are no unknowns", {**on_contact, "unknowns": "displacements"}, "with `unknowns: displacements` a multiplier is found from its node's row"),
+        ("on both sides", {**on_contact, "ground": {"body": "lower", "components": ["x", "y", "z"]}}, "more.until: it holds nodes of 'upper.zmin'"),
     ):
         run = driver.run(write(scene, driver.output / "refused.yaml"), label="refused", expect=1)
         verdicts.true(f"a support {what}: refused", says in run.text and "PETSC ERROR" not in run.text, f"says: {says}")

@@ -141,10 +141,12 @@ PetscErrorCode surfaces_read(Scene *scene, Contact *contact, Interface *interfac
 {
   const Mesh    *mesh = contact->mesh;
   const Surface *found[2];
+  TimedSides     sides;
   PetscInt      *nodes[2], *split;
   PetscFunctionBegin;
   PetscCall(find(scene, mesh, interface, found));
-  PetscCall(timed_refuse(scene, contact->physics, interface->name, found[0]));
+  sides = (TimedSides){interface->name, {found[0], found[1]}, (PetscBool)(interface->components == 1), contact->condensed};
+  PetscCall(timed_refuse(scene, contact->physics, &sides));
   for (int side = 0; side < 2; side++) {
     PetscCall(surface_share(mesh, found[side], &interface->share[side], side ? &interface->n2 : &interface->n1, &nodes[side]));
     interface->surface[side] = &interface->share[side];

@@ -140,6 +140,7 @@ PetscErrorCode across_add(Heat *heat, PetscReal dt, PetscScalar *leaves, HeatEnt
   PetscCall(PetscMalloc1(n, &numbers));
   for (PetscInt k = 0; k < n; k++)
     numbers[k] = heat->equations[k] < 0 ? -1 : heat->equations[k];
+  tools_number(heat, numbers);
   PetscCall(VecGetArrayRead(heat->now, &now));
   for (PetscInt i = 0; i < heat->contact->n_interfaces && !*status; i++) {
     if (heat->interfaces[i].passes) PetscCall(add_one(heat, i, dt, now, numbers, leaves, entries, status));

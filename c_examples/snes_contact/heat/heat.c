@@ -1,5 +1,6 @@
 /* The temperatures: where they are prescribed, and the linear system of a step at given displacements and tractions. */
 #include "heat/heat.h"
+#include "physics/dynamics.h"
 #include "solve/direct.h"
 
 /* The system is linear: what its solution leaves is rounding, of the heats, and of the entries times the temperatures, of which
@@ -8,7 +9,7 @@ static const PetscReal LEFT = 1e-8, ROUNDINGS = 1e-13;
 /* Temperatures that are found again from the heats that they make, to this part, are determined: a singular matrix finds others. */
 static const PetscReal FOUND = 1e-2;
 
-/* Vertices of surfaces with a temperature, and all of bodies without conductivity. */
+/* Vertices of surfaces with a temperature, and all of bodies without conductivity but for what a tool that stores heat has. */
 static PetscErrorCode mark_prescribed(Heat *heat)
 {
   const Mesh *mesh = heat->mesh;
@@ -30,6 +31,7 @@ static PetscErrorCode mark_prescribed(Heat *heat)
 
 static PetscBool is_prescribed(const Heat *heat, PetscInt k)
 {
+  if (tool_leads(heat, heat->mesh->original[k])) return PETSC_FALSE;
   return (PetscBool)(heat->support_of[k] >= 0 || !(heat->bodies[mesh_body_of(heat->mesh, heat->mesh->original[k])].conductivity > 0));
 }
 
@@ -64,6 +66,7 @@ PetscErrorCode heat_create(Heat *heat)
   PetscCall(create_section(heat));
   PetscCall(DMGetLocalToGlobalMapping(heat->dm, &mapping));
   PetscCall(ISLocalToGlobalMappingGetIndices(mapping, &heat->equations)); /* negative: prescribed */
+  PetscCall(tools_create(heat));
   PetscCall(DMCreateLocalVector(heat->dm, &heat->now));
   PetscCall(VecDuplicate(heat->now, &heat->before));
   PetscCall(VecSet(heat->before, heat->initial));
@@ -87,6 +90,7 @@ PetscErrorCode heat_destroy(Heat *heat)
     PetscCall(PetscFree(heat->supports[k].faces));
     PetscCall(PetscFree(heat->supports[k].curve.points));
   }
+  PetscCall(tools_destroy(heat));
   PetscCall(PetscFree(heat->supports));
   PetscCall(PetscFree(heat->bodies));
   for (PetscInt i = 0; heat->interfaces && i < heat->contact->n_interfaces; i++)
@@ -110,6 +114,10 @@ PetscErrorCode heat_begin(Heat *heat, PetscReal t)
   heat->turns      = 0;
   heat->refusal[0] = 0;
   PetscCall(VecCopy(heat->before, heat->now));
+  if (heat->two_way && heat->physics->dynamics) {
+    PetscCall(expansion_apply(heat));
+    PetscCall(dynamics_warm(heat->physics));
+  }
   PetscCall(VecGetArray(heat->now, &now));
   for (PetscInt k = 0; k < mesh->n_points; k++) {
     const PetscInt s = heat->support_of[k];
@@ -119,6 +127,7 @@ PetscErrorCode heat_begin(Heat *heat, PetscReal t)
     now[at] = heat->initial + (heat->supports[s].value - heat->initial) * curve_value(&heat->supports[s].curve, t);
   }
   PetscCall(VecRestoreArray(heat->now, &now));
+  PetscCall(tools_spread(heat));
   if (heat->two_way) PetscCall(expansion_apply(heat));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -136,6 +145,7 @@ static PetscErrorCode balance(Heat *heat, PetscReal dt, HeatEntries *entries, Ve
   PetscCall(VecGetArray(local, &leaves));
   PetscCall(conduction_add(heat, dt, leaves, entries));
   PetscCall(across_add(heat, dt, leaves, entries, status));
+  PetscCall(tools_balance(heat, dt, leaves, entries));
   *largest = 0;
   for (PetscInt s = 0; s < heat->n_supports; s++) {
     if (!heat->supports[s].flows) heat->supports[s].heat = 0;
@@ -226,6 +236,7 @@ PetscErrorCode heat_solve(Heat *heat, PetscReal dt, PetscReal *change, PetscInt 
   HeatEntries entries = {0};
   PetscReal   first, last = 0, largest, norm, range = 0, entry, hottest;
   PetscBool   determined = PETSC_FALSE;
+  PetscInt    n;
   Vec         leaves, step, x;
   Mat         matrix;
   KSP         ksp;
@@ -235,12 +246,14 @@ PetscErrorCode heat_solve(Heat *heat, PetscReal dt, PetscReal *change, PetscInt 
   PetscCall(VecDuplicate(leaves, &step));
   PetscCall(VecDuplicate(leaves, &x));
   PetscCall(balance(heat, dt, &entries, leaves, &first, status));
-  if (!*status) {
+  PetscCall(VecGetSize(leaves, &n));
+  *change        = 0;
+  heat->residual = 0;
+  if (!*status && n) { /* else all temperatures are given */
     PetscCall(matrix_of(&entries, leaves, &matrix));
     PetscCall(KSPCreate(PETSC_COMM_WORLD, &ksp));
     PetscCall(KSPSetOperators(ksp, matrix, matrix));
     PetscCall(direct_set(ksp));
-    *change = 0;
     PetscCall(is_determined(ksp, matrix, leaves, &determined));
     for (int refine = 0; refine < 2 && determined && !*status; refine++) { /* the second one takes the rounding of the first */
       PetscCall(KSPSolve(ksp, leaves, step));
@@ -251,6 +264,7 @@ PetscErrorCode heat_solve(Heat *heat, PetscReal dt, PetscReal *change, PetscInt 
       PetscCall(VecAXPY(x, -1, step));
       PetscCall(DMGlobalToLocalBegin(heat->dm, x, INSERT_VALUES, heat->now));
       PetscCall(DMGlobalToLocalEnd(heat->dm, x, INSERT_VALUES, heat->now));
+      PetscCall(tools_spread(heat));
       PetscCall(balance(heat, dt, NULL, leaves, &last, status));
     }
     largest = PetscMax(first, last);

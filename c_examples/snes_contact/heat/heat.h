@@ -30,6 +30,13 @@ typedef struct {
   double        *temperatures;     /* rank 0: of the non-mortar nodes, as last collected */
 } HeatInterface;
 
+/* A rigid body, or a surface in closed form: it has one temperature */
+typedef struct {
+  PetscInt  body, equation, leader; /* -1: it has none, and keeps what it is given; in local vectors its last vertex, -1: another rank owns it */
+  PetscInt  n, *entries;            /* in local vectors: all its vertices */
+  PetscReal temperature, taken;     /* of the last step; what it took from its interfaces [F L/T] */
+} HeatTool;
+
 /* Entries of the matrix, in an order that PETSc takes them in */
 typedef struct {
   PetscCount   n, room;
@@ -48,6 +55,8 @@ typedef struct {
   PetscInt       n_supports;
   HeatSupport   *supports;
   HeatInterface *interfaces;
+  PetscInt       n_tools;
+  HeatTool      *tools;
   DM             dm;            /* one temperature a vertex */
   PetscSection   section;
   const PetscInt *equations;    /* of each local entry, -1: prescribed */
@@ -84,6 +93,14 @@ PetscErrorCode expansion_create(Heat *heat);
 PetscErrorCode expansion_apply(Heat *heat);
 /* of the nodes of this rank's cell: what its stress is less by for its temperature; 0 of finite strain, whose stress has it */
 PetscErrorCode expansion_pressures(const Heat *heat, PetscInt cell, PetscReal pressures[]);
+/* tools.c: rigid bodies and surfaces in closed form; does this vertex have the equation of one that stores heat? */
+PetscBool      tool_is(const Mesh *mesh, PetscInt body);
+PetscBool      tool_leads(const Heat *heat, PetscInt vertex);
+PetscErrorCode tools_create(Heat *heat);
+PetscErrorCode tools_destroy(Heat *heat);
+void           tools_number(const Heat *heat, PetscScalar numbers[]); /* of their vertices: the equation that they share */
+PetscErrorCode tools_balance(Heat *heat, PetscReal dt, PetscScalar *leaves, HeatEntries *entries); /* after the interfaces */
+PetscErrorCode tools_spread(Heat *heat);                              /* after a change of the temperatures */
 /* across.c: the same of the interfaces */
 PetscErrorCode across_add(Heat *heat, PetscReal dt, PetscScalar *leaves, HeatEntries *entries, PetscInt *status);
 PetscErrorCode heat_collect(Heat *heat);

@@ -24,18 +24,36 @@ static PetscErrorCode read_bodies(Scene *scene, Heat *heat)
   for (PetscInt b = 0; b < mesh->n_bodies; b++) {
     const Body *body = &mesh->bodies[b];
     Conductor  *of   = &heat->bodies[b];
-    if (body->analytic || body->rigid) continue;
+    if (tool_is(mesh, b)) {
+      not_negative(scene, body->name, "heat_capacity", &of->capacity);
+      continue;
+    }
     positive(scene, body->name, "conductivity", &of->conductivity);
     not_negative(scene, body->name, "heat_capacity", &of->capacity);
     scene_real(scene, body->name, "expansion", &of->expansion);
     if (of->conductivity > 0) any = PETSC_TRUE;
     if (of->expansion != 0 && !heat->two_way)
       scene_fail(scene, body->name, "expansion", "it needs `heat: {coupling: two_way}`.");
+    if (of->expansion != 0 && heat->physics->dynamics && heat->physics->materials[b].law->finite)
+      scene_fail(scene, body->name, "expansion", "not with `dynamics` and a material of finite strain: take `material: linear`.");
     if (of->capacity > 0 && !(of->conductivity > 0))
       scene_fail(scene, body->name, "heat_capacity", "it needs a conductivity: without one a body keeps its temperature.");
   }
   if (!any) scene_fail(scene, NULL, "heat", "no body has a `conductivity`.");
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The vertices here that a temperature of a surface is of: of one in closed form those that it moves with. `vertices` has room for the latter. */
+enum { FRAME = 4 };
+static const PetscInt *vertices_of(const Mesh *mesh, const Surface *surface, PetscInt *n, PetscInt frame[FRAME])
+{
+  *n = surface->n_faces ? surface->offsets[surface->n_faces] : 0;
+  if (!surface->analytic) return surface->vertices;
+  for (PetscInt k = 0; k < mesh->dimension + 1; k++) {
+    const PetscInt here = mesh_vertex_here(mesh, surface->frame + k);
+    if (here >= 0) frame[(*n)++] = here;
+  }
+  return frame;
 }
 
 /* `flows`: a flow of heat, else a temperature */
@@ -58,8 +76,8 @@ static PetscErrorCode read_supports(Scene *scene, Heat *heat, const char *list, 
     PetscCall(PetscCalloc1(support->n_surfaces, &support->surfaces));
     for (PetscInt s = 0; s < support->n_surfaces; s++) {
       support->surfaces[s] = mesh_surface(scene, heat->mesh, names[k], "surface", surfaces[s]);
-      if (support->surfaces[s]->analytic)
-        scene_fail(scene, names[k], "surface", "'%s' is without faces: it has no temperature.", surfaces[s]);
+      if (flows && support->surfaces[s]->analytic)
+        scene_fail(scene, names[k], "surface", "'%s' is without faces, and a flow is per area: give a temperature, or mesh it.", surfaces[s]);
     }
     strings_destroy(support->n_surfaces, &surfaces);
   }
@@ -93,15 +111,21 @@ static PetscErrorCode check_overlap(Scene *scene, const Heat *heat, PetscInt num
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(mesh->n_vertices, &chosen));
   for (PetscInt s = 0; s < support->n_surfaces; s++) {
-    const Surface *surface = support->surfaces[s];
-    for (PetscInt k = 0; surface->n_faces && k < surface->offsets[surface->n_faces]; k++)
-      chosen[surface->vertices[k]] = PETSC_TRUE;
+    PetscInt        frame[FRAME], n;
+    const PetscInt *vertices = vertices_of(mesh, support->surfaces[s], &n, frame);
+    for (PetscInt k = 0; k < n; k++)
+      chosen[vertices[k]] = PETSC_TRUE;
   }
   PetscCall(pieces_unite(mesh, chosen, MPI_MAX)); /* a vertex here may be on a face of another piece */
   for (PetscInt v = 0; v < mesh->n_vertices; v++) {
     const PetscReal *X = mesh->coordinates + 3 * v;
     if (!chosen[v]) continue;
     if (first[v] < 0) first[v] = number;
+    if (bad < 0 && tool_is(mesh, mesh_body_of(mesh, mesh->numbers[v])) && heat->bodies[mesh_body_of(mesh, mesh->numbers[v])].capacity > 0) {
+      bad = mesh->numbers[v];
+      PetscCall(PetscSNPrintf(text, sizeof(text), "'%s' has a `heat_capacity`, by which its temperature follows from what it is given: leave one of them out.",
+                              mesh->bodies[mesh_body_of(mesh, bad)].name));
+    }
     if (bad >= 0 || first[v] == number || agree(heat, support, &heat->supports[first[v]])) continue;
     bad = mesh->numbers[v];
     PetscCall(PetscSNPrintf(text, sizeof(text), "the temperature of the vertex at [%g, %g, %g] is prescribed differently by '%s'.", (double)X[0],
@@ -158,10 +182,6 @@ static PetscErrorCode read_interfaces(Scene *scene, Heat *heat)
     of->passes = (PetscBool)(contact > 0 || constant > 0 || gas > 0 || rubs);
     if (of->passes && decision_is_points(&heat->contact->interfaces[i]))
       scene_fail(scene, name, "decision", "heat needs `nodes`.");
-    for (PetscInt s = 0; s < 2 && of->passes; s++) {
-      if (heat->contact->interfaces[i].surface[s]->analytic)
-        scene_fail(scene, name, rubs ? "friction_heat" : "conductance", "an analytic surface has no temperature; mesh it.");
-    }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -172,7 +192,6 @@ PetscErrorCode heat_read(Scene *scene, Heat *heat)
   PetscInt                 coupling    = 0;
   PetscFunctionBegin;
   if (!scene_has(scene, "heat", "initial")) PetscFunctionReturn(PETSC_SUCCESS);
-  if (heat->physics->dynamics) scene_fail(scene, "heat", "initial", "not with `dynamics`: leave out one of them.");
   heat->on        = PETSC_TRUE;
   heat->tolerance = 1e-9;
   heat->most      = 50;
@@ -203,12 +222,12 @@ PetscErrorCode heat_label(Heat *heat)
     HeatSupport *support = &heat->supports[k];
     label_of(support, label);
     for (PetscInt s = 0; s < support->n_surfaces; s++) {
-      const Surface *surface = support->surfaces[s];
+      PetscInt        frame[FRAME], n;
+      const PetscInt *vertices = vertices_of(heat->mesh, support->surfaces[s], &n, frame);
       if (support->flows)
-        PetscCall(plex_label_faces(heat->mesh, label, surface));
+        PetscCall(plex_label_faces(heat->mesh, label, support->surfaces[s]));
       else
-        PetscCall(plex_label_vertices(heat->mesh, label, surface->n_faces ? surface->offsets[surface->n_faces] : 0,
-                                      surface->vertices, NULL, 1));
+        PetscCall(plex_label_vertices(heat->mesh, label, n, vertices, NULL, 1));
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);

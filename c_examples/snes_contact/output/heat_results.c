@@ -23,6 +23,13 @@ PetscErrorCode heat_results(const Output *output, cJSON *step)
     cJSON_AddNumberToObject(one, "across", heat->interfaces[i].across);
     cJSON_AddNumberToObject(one, "friction", heat->interfaces[i].friction);
   }
+  of = heat->n_tools ? cJSON_AddObjectToObject(json, "tools") : NULL;
+  for (PetscInt k = 0; k < heat->n_tools; k++) {
+    cJSON *one = cJSON_AddObjectToObject(of, output->mesh->bodies[heat->tools[k].body].name);
+    if (heat->tools[k].equation >= 0 || output->mesh->bodies[heat->tools[k].body].analytic) /* others have one at each node */
+      cJSON_AddNumberToObject(one, "temperature", heat->tools[k].temperature);
+    cJSON_AddNumberToObject(one, "heat", heat->tools[k].taken);
+  }
   of = cJSON_AddObjectToObject(json, "probes");
   for (PetscInt k = 0; k < output->n_probes; k++) {
     PetscReal temperature;

@@ -100,8 +100,8 @@ static PetscErrorCode set_middle(Physics *physics, PetscBool damped)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Loads of the middle of the step, over kappa, into f_external; the place is u_local for now. */
-static PetscErrorCode set_loads(Physics *physics)
+/* Loads of the middle of the step, over kappa, into f_external; the place is u_local for now. What expands has no curve: a mean of both ends. */
+PetscErrorCode dynamics_loads(Physics *physics)
 {
   const Dynamics *d = physics->dynamics;
   const PetscReal t = physics->t;
@@ -109,7 +109,33 @@ static PetscErrorCode set_loads(Physics *physics)
   physics->t = d->t_n + (1 - d->alpha_f) * d->dt;
   PetscCall(loads_values(physics));
   physics->t = t;
+  if (d->thermal) {
+    PetscCall(VecAXPY(physics->f_external, -d->alpha_f, physics->f_thermal));
+    PetscCall(VecAXPY(physics->f_external, d->alpha_f, d->thermal));
+  }
   PetscCall(VecScale(physics->f_external, 1 / d->scale));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Supports that hold in the step to come: which displacements have inertia of their own, and how what is held is accelerated from the
+ * start of the step on. Who is let go keeps the velocity that the support has given him; who is caught loses his in the step. */
+PetscErrorCode dynamics_hold(Physics *physics)
+{
+  Dynamics *d = physics->dynamics;
+  PetscFunctionBegin;
+  if (!physics->timed) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < physics->unknowns.n_local; k++)
+    if (d->entries[k] != MASS_NONE) d->entries[k] = entry_held(physics, k) ? MASS_PRESCRIBED : MASS_FREE;
+  PetscCall(supports_rates(physics, d->t_n, SUPPORT_ACCELERATION, d->prescribed));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode dynamics_warm(Physics *physics)
+{
+  Dynamics *d = physics->dynamics;
+  PetscFunctionBegin;
+  if (!d->thermal) PetscCall(VecDuplicate(physics->f_thermal, &d->thermal));
+  PetscCall(VecCopy(physics->f_thermal, d->thermal));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -120,6 +146,8 @@ PetscErrorCode dynamics_begin(Physics *physics)
   PetscScalar       *impulse;
   PetscFunctionBegin;
   d->dt = physics->t - d->t_n;
+  PetscCall(dynamics_hold(physics));
+  rigids_lead(physics, physics->t);
   PetscCall(supports_rates(physics, physics->t, SUPPORT_VELOCITY, d->v_next));
   PetscCall(supports_rates(physics, physics->t, SUPPORT_ACCELERATION, d->prescribed_next));
   PetscCall(VecZeroEntries(d->impulse));
@@ -129,7 +157,7 @@ PetscErrorCode dynamics_begin(Physics *physics)
   rigids_add_impulse(physics, d->dt, impulse);
   PetscCall(VecRestoreArray(d->impulse, &impulse));
   PetscCall(VecRestoreArrayRead(d->v, &v));
-  PetscCall(set_loads(physics));
+  PetscCall(dynamics_loads(physics));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -188,7 +216,7 @@ PetscErrorCode dynamics_forces(Physics *physics, Vec f_local, PetscInt *status)
   if (loads_follow(physics)) {
     PetscCall(set_middle(physics, PETSC_FALSE));
     dynamics_swap(&physics->u_local, &d->middle);
-    PetscCall(set_loads(physics));
+    PetscCall(dynamics_loads(physics));
     dynamics_swap(&physics->u_local, &d->middle);
   }
   PetscCall(springs_step(physics, d->u, physics->u_local, d->alpha_f));

@@ -64,6 +64,7 @@ struct Dynamics {
   Balance start, last, now;
   PetscBool told; /* that contact gives energy at all */
   EnergyTold energies[N_ENERGIES];
+  Vec     thermal; /* local: what warm bodies are pushed apart by at t_n; NULL: none expands */
   Mat     matrix; /* of the masses, and what solves with it; NULL where rho_inf is 1 */
   KSP     solver;
 };
@@ -85,6 +86,9 @@ PetscErrorCode dynamics_accept(Physics *physics);
 PetscErrorCode dynamics_destroy(Physics *physics);
 /* dynamics.c: at the start of a step to physics->t; then in place of bulk_forces(), bulk_stiffness() and the loads */
 PetscErrorCode dynamics_begin(Physics *physics);
+PetscErrorCode dynamics_warm(Physics *physics); /* before that: physics->f_thermal is that of t_n */
+PetscErrorCode dynamics_loads(Physics *physics); /* of the middle of the step, once more: physics->f_thermal has changed */
+PetscErrorCode dynamics_hold(Physics *physics); /* which displacements are held in the step that begins */
 PetscErrorCode dynamics_forces(Physics *physics, Vec f_local, PetscInt *status);
 PetscErrorCode dynamics_stiffness(Physics *physics, Mat matrix, PetscInt *status);
 BulkStep       dynamics_bulk(const Physics *physics); /* the step up to u_local, with what is in `rate` */

@@ -125,6 +125,7 @@ static PetscErrorCode correct_velocity(Physics *physics)
   const PetscScalar *by, *p;
   PetscScalar       *f, *next;
   Vec                rhs, change;
+  Mat                matrix;
   PetscFunctionBegin;
   PetscCall(DMCreateGlobalVector(mesh->dm, &rhs));
   PetscCall(VecDuplicate(rhs, &change));
@@ -140,6 +141,12 @@ static PetscErrorCode correct_velocity(Physics *physics)
   PetscCall(VecZeroEntries(rhs));
   PetscCall(DMLocalToGlobalBegin(mesh->dm, d->middle, ADD_VALUES, rhs));
   PetscCall(DMLocalToGlobalEnd(mesh->dm, d->middle, ADD_VALUES, rhs));
+  if (physics->timed) {
+    PetscCall(MatDuplicate(d->matrix, MAT_COPY_VALUES, &matrix));
+    PetscCall(timed_identity(physics, matrix));
+    PetscCall(KSPSetOperators(d->solver, matrix, matrix));
+    PetscCall(MatDestroy(&matrix));
+  }
   PetscCall(KSPSolve(d->solver, rhs, change));
   PetscCall(KSPGetConvergedReason(d->solver, &reason));
   PetscCheck(reason > 0 || reason == KSP_DIVERGED_ITS, PETSC_COMM_WORLD, PETSC_ERR_NOT_CONVERGED, "the mass matrix is not solved: %s",
@@ -265,14 +272,17 @@ PetscErrorCode dynamics_measure(Physics *physics, PetscReal store, PetscReal fri
   PetscReal work[4] = {0}, gained;
   RigidWork of_rigids = {0};
   PetscBool moves;
-  const PetscScalar *external;
+  const PetscScalar *external, *forces;
   PetscFunctionBegin;
   PetscCall(add_work(physics, work));
   PetscCall(add_damping(physics, &work[3]));
   PetscCall(VecGetArrayRead(physics->f_external, &external));
-  rigids_add_work(physics, d->dt, d->mass_damping, external, &of_rigids);
+  PetscCall(VecGetArrayRead(physics->f_local, &forces));
+  rigids_add_work(physics, d->dt, d->mass_damping, external, forces, &of_rigids);
+  PetscCall(VecRestoreArrayRead(physics->f_local, &forces));
   PetscCall(VecRestoreArrayRead(physics->f_external, &external));
   work[0] += of_rigids.external;
+  work[1] += of_rigids.supports;
   work[2] += of_rigids.contact;
   work[3] += of_rigids.damping;
   PetscCall(set_velocity(physics));

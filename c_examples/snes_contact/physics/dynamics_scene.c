@@ -30,7 +30,7 @@ static void read_rigid(Scene *scene, Physics *physics, Rigid *rigid)
   const Mesh *mesh = physics->mesh;
   const char *name = mesh->bodies[rigid->body].name;
   PetscReal   motion[MOTION_NUMBERS] = {0}, velocity[3], arm[3] = {0};
-  rigids_read_inertia(scene, mesh, physics->supports, rigid);
+  rigids_read_inertia(scene, physics, rigid);
   if (!rigid->inertial) return;
   if (physics->dynamics->rho_inf < 1)
     scene_fail(scene, "dynamics", "rho_inf", "'%s' is rigid and free, and turns by a rule that keeps the energy: 1 is expected, not %g.", name,

@@ -95,10 +95,12 @@ PetscErrorCode dynamics_create(Scene *scene, Physics *physics)
   }
   PetscCall(mass_create(physics));
   if (d->spread) PetscCall(mass_spread(scene, physics));
+  PetscCall(dynamics_hold(physics));
   for (PetscInt c = 0; c < physics->cells.n; c++) {
     for (PetscInt r = 0; r < physics->n_rigids; r++)
       if (physics->cells.body[c] == physics->rigids[r].body) physics->rigids[r].part = physics->cells.part[c];
   }
+  rigids_start(physics);
   PetscCall(supports_values(physics, 0));
   PetscCall(VecCopy(physics->prescribed_local, d->u));
   PetscCall(start(physics));
@@ -140,6 +142,7 @@ PetscErrorCode dynamics_destroy(Physics *physics)
   list_vectors(d, vectors);
   for (int k = 0; k < N_VECTORS; k++)
     PetscCall(VecDestroy(vectors[k]));
+  PetscCall(VecDestroy(&d->thermal));
   PetscCall(MatDestroy(&d->matrix));
   PetscCall(KSPDestroy(&d->solver));
   PetscCall(PetscFree(d->velocity));

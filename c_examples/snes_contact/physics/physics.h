@@ -63,6 +63,9 @@ typedef struct {
    * configuration; at t_n the displacement, velocity and, along the axes that turn with the body, spin */
   PetscBool inertial, has_inertia, lag_told; /* lag_told: that it turns too slowly */
   PetscReal inertia[9], place[3], velocity[3], spin[3];
+  /* of its unknowns those whose rate supports give at the end of the step, of turns all or none; these rates, of turns along the axes of space */
+  PetscInt  led;
+  PetscReal rate[RIGID_UNKNOWNS];
   PetscInt  part;                     /* among the model's parts; -1: none of its cells is here */
   PetscInt  held, turned_by;          /* mask of prescribed unknowns; of rotations (from bit 3 on) that a support turns by an angle */
   PetscInt  support[RIGID_UNKNOWNS];  /* which one prescribes each; -1: none */
@@ -171,10 +174,12 @@ PetscErrorCode supports_label(Physics *physics);
 PetscBool supports_agree(const Physics *physics, const Support *a, const Support *b, PetscInt vertex, const PetscReal X[3],
                          int component);
 PetscErrorCode supports_values(Physics *physics, PetscReal t); /* into prescribed_local */
-/* velocities or accelerations of what is prescribed: at a kink of a curve the mean of before and after, at the start and the end of the run
- * what is within it; of vertices of rigid bodies none */
+/* velocities or accelerations of what is prescribed: at a kink of a curve the mean of before and after, where a support begins or ceases to
+ * hold what is within its time; of vertices of rigid bodies none */
 typedef enum { SUPPORT_PLACE, SUPPORT_VELOCITY, SUPPORT_ACCELERATION } SupportMotion;
 PetscErrorCode supports_rates(Physics *physics, PetscReal t, SupportMotion motion, Vec local);
+/* of which rate that is at t: 0 before, 1 after, 2 the mean */
+int            support_sides(const Physics *physics, const Support *support, PetscReal t);
 PetscErrorCode supports_reactions(Physics *physics);
 /* reactions.c */
 PetscErrorCode supports_shared(const Physics *physics, PetscBool shared[], PetscReal twice[3]);
@@ -188,7 +193,13 @@ void           supports_turn(const Support *support, PetscReal t0, PetscReal t, 
 PetscErrorCode timed_read(Scene *scene, Physics *physics, Support *support);
 PetscErrorCode timed_check(Scene *scene, const Physics *physics); /* once their vertices are known */
 const Support *timed_first(const Physics *physics);               /* NULL: none */
-PetscErrorCode timed_refuse(Scene *scene, const Physics *physics, const char *interface, const Surface *nonmortar); /* on its nodes */
+/* of an interface: its name and surfaces, whether it has multipliers of normals alone, and whether these are no unknowns */
+typedef struct {
+  const char    *interface;
+  const Surface *surface[2];
+  PetscBool      normal_only, condensed;
+} TimedSides;
+PetscErrorCode timed_refuse(Scene *scene, const Physics *physics, const TimedSides *sides); /* on nodes with multipliers */
 PetscErrorCode timed_create(Physics *physics);                    /* once there are unknowns */
 PetscErrorCode timed_destroy(Physics *physics);
 /* for the step that ends at t: which hold, `changed`: others than before; after a converged solve; once it is accepted */
@@ -198,6 +209,7 @@ PetscErrorCode timed_accept(Physics *physics);
 PetscErrorCode timed_place(Physics *physics, Vec x);                    /* puts what is held where it belongs */
 PetscErrorCode timed_residual(Physics *physics, PetscReal scale, Vec r); /* in place of what their rows say */
 PetscErrorCode timed_rows(Physics *physics, PetscReal scale, Mat matrix);
+PetscErrorCode timed_identity(Physics *physics, Mat matrix);            /* rows and columns of what is held: the identity's */
 PetscErrorCode timed_forces(Physics *physics, PetscScalar *forces);     /* adds reactions that fade, at physics->t */
 PetscBool      timed_bend(const Physics *physics, PetscReal t);         /* is one let go or activated at t, or has faded? */
 PetscInt       timed_times(const Physics *physics, PetscReal times[]);  /* of such changes, but for fading, 2 a support at most */
@@ -227,6 +239,7 @@ PetscErrorCode rigids_load(const Physics *physics, const Load *load, PetscScalar
 PetscErrorCode rigids_reactions(Physics *physics);
 PetscReal      rigids_work_before(const Physics *physics, const PetscScalar *f_external);
 PetscErrorCode rigids_accept(Physics *physics, PetscReal t, Vec last, Vec before);
+const Support *rigid_holder(const Physics *physics, const Rigid *rigid, int unknown); /* who prescribes it now; NULL: nobody */
 stickslip_rigid_motion rigids_motion(const Rigid *rigid); /* of now */
 PetscErrorCode rigids_displacements(const Rigid *rigid, PetscInt n, const PetscReal X[], PetscScalar u[]);
 void           rigids_turned(const Rigid *rigid, PetscReal turned[9]);
@@ -236,18 +249,21 @@ PetscBool      rigids_moves(const Physics *physics, PetscInt vertex, int compone
 
 /* rigids_mass.c: before the scene is turned into a frame, before and after supports are read */
 PetscErrorCode rigids_read_mass(Scene *scene, const Mesh *mesh, Rigid *rigid);
-void           rigids_read_inertia(Scene *scene, const Mesh *mesh, const Support supports[], Rigid *rigid);
+void           rigids_read_inertia(Scene *scene, const Physics *physics, Rigid *rigid);
 /* rigids_inertia.c: with `dynamics`, of the bodies that are not held in all */
 typedef struct {
-  PetscReal external, contact, damping; /* of a step, this rank's */
+  PetscReal external, supports, contact, damping; /* of a step, this rank's */
 } RigidWork;
 void           rigid_inertia_start(Rigid *rigid, const PetscReal velocity[3], const PetscReal spin[3]);
+void           rigids_lead(Physics *physics, PetscReal t);    /* how supports move them at t */
+void           rigids_start(Physics *physics);                /* what supports say at t = 0 goes before what the bodies do */
 void           rigids_add_impulse(const Physics *physics, PetscReal dt, PetscScalar *impulse);
 void           rigids_add_inertia(const Physics *physics, PetscReal dt, PetscReal damping, PetscScalar *f);
 PetscErrorCode rigids_insert_inertia(const Physics *physics, PetscReal dt, PetscReal damping, Mat matrix);
 PetscErrorCode rigids_pattern(const Physics *physics, Mat matrix);
 PetscReal      rigid_rounding(const Rigid *rigid, PetscReal dt); /* of its inertial force, squared */
-void           rigids_add_work(const Physics *physics, PetscReal dt, PetscReal damping, const PetscScalar *external, RigidWork *work);
+void           rigids_add_work(const Physics *physics, PetscReal dt, PetscReal damping, const PetscScalar *external, const PetscScalar *forces,
+                               RigidWork *work);
 void           rigids_add_motion(const Physics *physics, PetscReal dt, PetscBool end, PetscReal *kinetic, PetscReal momentum[3],
                                  PetscReal angular[3]);
 PetscErrorCode rigids_accept_inertia(Physics *physics, PetscReal dt); /* and tells of one that turns too slowly */

@@ -49,7 +49,7 @@ PetscErrorCode supports_shared(const Physics *physics, PetscBool shared[], Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The force that is left at physics->t of a support that was let go; false: none */
+/* The force that is left at physics->t of a support that was let go, without the moments of a rigid body; false: none */
 PetscErrorCode supports_fading(const Physics *physics, const Support *support, PetscReal force[3], PetscBool *fades)
 {
   PetscScalar *forces;
@@ -62,6 +62,7 @@ PetscErrorCode supports_fading(const Physics *physics, const Support *support, P
   for (PetscInt k = 0; k < physics->mesh->n_points; k++) {
     PetscInt at;
     PetscCall(PetscSectionGetOffset(physics->unknowns.section, physics->mesh->points[k], &at));
+    if (support->rigid >= 0 && at == physics->rigids[support->rigid].at[1]) continue;
     for (int i = 0; i < 3; i++)
       force[i] += PetscRealPart(forces[at + i]);
   }

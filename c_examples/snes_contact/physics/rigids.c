@@ -110,6 +110,17 @@ PetscErrorCode rigids_destroy(Physics *physics)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The support that prescribes an unknown now; NULL: none */
+const Support *rigid_holder(const Physics *physics, const Rigid *rigid, int k)
+{
+  if (rigid->support[k] >= 0) return &physics->supports[rigid->support[k]];
+  for (PetscInt s = 0; s < physics->n_supports && physics->timed; s++) {
+    const Support *support = &physics->supports[s];
+    if (support->timed && support->active && support->rigid == rigid - physics->rigids && ((support->mask | support->turns << 3) & (1 << k))) return support;
+  }
+  return NULL;
+}
+
 /* What is prescribed at t, into a local vector. The rotation is that since the last step. */
 PetscErrorCode rigids_prescribe(Physics *physics, PetscReal t, Vec local)
 {
@@ -120,7 +131,7 @@ PetscErrorCode rigids_prescribe(Physics *physics, PetscReal t, Vec local)
   for (PetscInt r = 0; r < physics->n_rigids; r++) {
     const Rigid *rigid = &physics->rigids[r];
     for (int k = 0; k < RIGID_UNKNOWNS && rigid->at[0] >= 0; k++) {
-      const Support *support = rigid->support[k] < 0 ? NULL : &physics->supports[rigid->support[k]];
+      const Support *support = rigid_holder(physics, rigid, k);
       PetscReal      v[3]    = {0, 0, 0};
       for (int i = 0; i < 3 && support; i++) {
         if (k < 3)
@@ -130,7 +141,7 @@ PetscErrorCode rigids_prescribe(Physics *physics, PetscReal t, Vec local)
                  (curve_value(&support->rotate_curve, t) - curve_value(&support->rotate_curve, physics->t_turned));
       }
       mesh_rotate_vector(physics->mesh, v);
-      if (rigid->held & (1 << k)) array[rigid->at[k / 3] + k % 3] = v[k % 3];
+      if (support || rigid->held & (1 << k)) array[rigid->at[k / 3] + k % 3] = v[k % 3];
     }
   }
   PetscCall(VecRestoreArray(local, &array));
@@ -252,14 +263,15 @@ PetscErrorCode rigids_reactions(Physics *physics)
     Rigid *rigid = &physics->rigids[r];
     for (int k = 0; k < RIGID_UNKNOWNS; k++) {
       const PetscReal scale = k < 3 ? 1 : rigid->length;
-      const PetscBool held  = (PetscBool)(rigid->held >> k & 1);
+      const PetscBool held  = (PetscBool)(rigid->held >> k & 1 || rigid_holder(physics, rigid, k));
       rigid->reaction[k]    = rigid->at[0] >= 0 && held ? scale * PetscRealPart(f[rigid->at[k / 3] + k % 3]) : 0;
       rigid->on_body[k]     = -rigid->contact[k]; /* contact has what is inside as positive */
     }
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, rigid->reaction, RIGID_UNKNOWNS, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, rigid->on_body, RIGID_UNKNOWNS, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
     for (int k = 0; k < RIGID_UNKNOWNS; k++) {
-      Support *support = rigid->support[k] < 0 ? NULL : &physics->supports[rigid->support[k]];
+      const Support *holder  = rigid_holder(physics, rigid, k);
+      Support       *support = holder ? &physics->supports[holder - physics->supports] : NULL;
       if (support && k < 3) support->reaction[k] = rigid->reaction[k];
       if (support && k >= 3) support->moment[k - 3] = rigid->reaction[k];
     }

@@ -8,9 +8,12 @@
  *   W' = 2 R^T tau / dt - W,   (pi' - pi) / dt = M,   v' = 2 (u' - u) / dt - v,   m (v' - v) / dt = F,
  *
  * where M has the arms of the middle (STICKSLIP_RIGID_ARMS_MIDDLE). R^T tau = R'^T tau gives tau . (pi' - pi) = dt (W' J W' - W J W) / 2, so that
- * the energy grows by F . (u' - u) + M . tau, which is the work of the nodal forces; without any it is kept, and pi is. */
+ * the energy grows by F . (u' - u) + M . tau, which is the work of the nodal forces; without any it is kept, and pi is.
+ *
+ * Where supports prescribe a motion v' and W' are theirs (`led`): F and M have impulses then, which work with the means of both velocities. */
 #include "physics/physics.h"
 
+enum { TURNS = 7 << 3 };
 /* Below this angle, squared, series: what they leave out is below rounding. */
 static const PetscReal SMALL = 1e-4;
 /* How much too slowly a body may turn before that is told, over its turn: a per cent is off by 0.06 radians after a whole turn, which a
@@ -76,23 +79,68 @@ static void look(const Rigid *rigid, PetscReal dt, RigidStep *s)
   for (int i = 0; i < 3; i++) {
     s->way[i]      = rigid->motion[i] - rigid->place[i];
     s->tau[i]      = s->g * rigid->motion[3 + i];
-    s->velocity[i] = 2 * s->way[i] / dt - rigid->velocity[i];
+    s->velocity[i] = rigid->led >> i & 1 ? rigid->rate[i] : 2 * s->way[i] / dt - rigid->velocity[i];
   }
   multiply_transposed(rigid->turned, s->tau, turning);
+  multiply_transposed(s->turned, rigid->rate + 3, own);
   for (int i = 0; i < 3; i++)
-    s->spin[i] = 2 * turning[i] / dt - rigid->spin[i];
+    s->spin[i] = rigid->led & TURNS ? own[i] : 2 * turning[i] / dt - rigid->spin[i];
   multiply(rigid->inertia, rigid->spin, own);
   multiply(rigid->turned, own, s->pi_n);
   multiply(rigid->inertia, s->spin, own);
   multiply(s->turned, own, s->pi);
 }
 
-/* At t = 0: velocity of the reference point and spin along the axes of space. What is held does not move. */
+/* At t = 0: velocity of the reference point and spin along the axes of space. What is held does not turn. */
 void rigid_inertia_start(Rigid *rigid, const PetscReal velocity[3], const PetscReal spin[3])
 {
   for (int i = 0; i < 3; i++) {
-    rigid->velocity[i] = rigid->held >> i & 1 ? 0 : velocity[i];
+    rigid->velocity[i] = velocity[i];
     rigid->spin[i]     = rigid->held >> (3 + i) & 1 ? 0 : spin[i];
+  }
+}
+
+/* Of the supports that hold in the step that ends at t. Turns that are held in part are held at rest, and have no rate. */
+void rigids_lead(Physics *physics, PetscReal t)
+{
+  for (PetscInt r = 0; r < physics->n_rigids; r++) {
+    Rigid *rigid = &physics->rigids[r];
+    rigid->led   = 0;
+    for (int k = 0; k < RIGID_UNKNOWNS && rigid->inertial; k++) {
+      const Support *support = rigid_holder(physics, rigid, k);
+      PetscReal      rate[3] = {0, 0, 0};
+      if (!support && !(rigid->held >> k & 1)) continue;
+      rigid->led |= 1 << k;
+      for (int i = 0; i < 3 && support; i++) {
+        const int sides = support_sides(physics, support, t);
+        PetscReal slopes[2];
+        curve_slopes(k < 3 ? &support->curve : &support->rotate_curve, t, slopes);
+        rate[i] = (k < 3 ? support->value : support->rotate)[i] * (sides == 2 ? (slopes[0] + slopes[1]) / 2 : slopes[sides]);
+      }
+      mesh_rotate_vector(physics->mesh, rate);
+      rigid->rate[k] = rate[k % 3];
+    }
+    if ((rigid->led & TURNS) != TURNS) rigid->led &= ~TURNS;
+  }
+}
+
+void rigids_start(Physics *physics)
+{
+  rigids_lead(physics, 0);
+  for (PetscInt r = 0; r < physics->n_rigids; r++) {
+    Rigid *rigid = &physics->rigids[r];
+    for (int i = 0; i < 3; i++) {
+      const Support *support = rigid_holder(physics, rigid, i);
+      PetscReal      place[3] = {0, 0, 0};
+      for (int j = 0; j < 3 && support; j++)
+        place[j] = curve_value(&support->curve, 0) * support->value[j];
+      mesh_rotate_vector(physics->mesh, place);
+      if (rigid->led >> i & 1) rigid->velocity[i] = rigid->rate[i], rigid->place[i] = place[i];
+      if (rigid->led & TURNS)
+        rigid->spin[i] = rigid->rate[3 + i]; /* it is not turned yet */
+      else if (rigid_holder(physics, rigid, 3 + i))
+        rigid->spin[i] = 0;
+    }
   }
 }
 
@@ -194,14 +242,38 @@ PetscReal rigid_rounding(const Rigid *rigid, PetscReal dt)
   return PetscSqr(PETSC_MACHINE_EPSILON * largest * rigid->mass * 2 / PetscSqr(dt));
 }
 
-/* Work of the step by loads, and by contact; energy that damping takes. By contact each rank has what its nodes do. */
-void rigids_add_work(const Physics *physics, PetscReal dt, PetscReal damping, const PetscScalar *external, RigidWork *work)
+/* Work of the supports that lead a body, by forces of which each rank has its part, and by inertia, which its owner has: force times way,
+ * and what inertia works more by the mean of both velocities. Turns that are held at rest in part do none. */
+static PetscReal work_of_leading(const Rigid *rigid, PetscReal dt, const PetscScalar *forces, const RigidStep *s)
+{
+  PetscReal work = 0, own[3], energies[2];
+  for (int i = 0; i < 3; i++) {
+    const PetscReal v = rigid->velocity[i], w = s->velocity[i];
+    if (!(rigid->led >> i & 1)) continue;
+    work += PetscRealPart(forces[rigid->at[0] + i]) * s->way[i];
+    if (rigid->owned) work += rigid->mass * (w - v) * ((w + v) / 2 - s->way[i] / dt);
+  }
+  if (!(rigid->led & TURNS)) return work;
+  multiply(rigid->inertia, rigid->spin, own);
+  energies[0] = dot(rigid->spin, own) / 2;
+  multiply(rigid->inertia, s->spin, own);
+  energies[1] = dot(s->spin, own) / 2;
+  for (int i = 0; i < 3; i++) {
+    work += PetscRealPart(forces[rigid->at[1] + i]) * rigid->length * s->tau[i];
+    if (rigid->owned) work -= (s->pi[i] - s->pi_n[i]) / dt * s->tau[i];
+  }
+  return work + (rigid->owned ? energies[1] - energies[0] : 0);
+}
+
+/* Work of the step by loads, supports and contact; energy that damping takes. By contact each rank has what its nodes do. */
+void rigids_add_work(const Physics *physics, PetscReal dt, PetscReal damping, const PetscScalar *external, const PetscScalar *forces, RigidWork *work)
 {
   for (PetscInt r = 0; r < physics->n_rigids; r++) {
     const Rigid *rigid = &physics->rigids[r];
     RigidStep    s;
     if (!rigid->inertial || rigid->at[0] < 0) continue;
     look(rigid, dt, &s);
+    work->supports += work_of_leading(rigid, dt, forces, &s);
     work->contact -= dot(rigid->contact, s.way) + dot(rigid->contact + 3, s.tau); /* contact has what is inside as positive */
     for (int i = 0; i < 3 && rigid->owned; i++) {
       work->external += PetscRealPart(external[rigid->at[0] + i]) * s.way[i] + PetscRealPart(external[rigid->at[1] + i]) * rigid->length * s.tau[i];

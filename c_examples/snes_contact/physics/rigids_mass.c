@@ -213,24 +213,33 @@ static void into_frame(const Mesh *mesh, PetscReal inertia[9])
   }
 }
 
+/* A spin that supports prescribe in part is none: the rest of it would not follow from the moments that act. */
+static void check_turning(Scene *scene, const Physics *physics, const Support *support, const Rigid *rigid)
+{
+  const PetscInt  turns = 7 << 3, held = rigid->held | support->turns << 3;
+  const PetscBool turned = (PetscBool)(support->rotate[0] != 0 || support->rotate[1] != 0 || support->rotate[2] != 0);
+  const PetscBool caught = (PetscBool)(support->from > 0 && support->turns);
+  if ((turned || caught) && (held & turns) != turns)
+    scene_fail(scene, support->name, turned ? "rotate" : "from", "'%s' is free to turn in part: with `dynamics` a rigid body is %s in all of its turns, or in none.",
+               physics->mesh->bodies[rigid->body].name, turned ? "turned" : "caught");
+}
+
 /* With `dynamics`: of a body that is not held in all, what its inertia asks for. */
-void rigids_read_inertia(Scene *scene, const Mesh *mesh, const Support supports[], Rigid *rigid)
+void rigids_read_inertia(Scene *scene, const Physics *physics, Rigid *rigid)
 {
   const PetscInt turns = 7 << 3, all = (1 << RIGID_UNKNOWNS) - 1;
-  const char    *name = mesh->bodies[rigid->body].name;
+  const char    *name = physics->mesh->bodies[rigid->body].name;
   if (rigid->held == all) return;
   if (!(rigid->mass > 0)) scene_fail(scene, name, "mass", "one above 0 is needed, or `density`: with `dynamics` it moves by its inertia.");
-  if ((rigid->held & turns) != turns) {
+  for (PetscInt s = 0; s < physics->n_supports; s++) {
+    if (physics->supports[s].rigid == rigid - physics->rigids) check_turning(scene, physics, &physics->supports[s], rigid);
+  }
+  if ((rigid->held & turns) != turns || rigid->turned_by) {
     if (!rigid->has_inertia)
       scene_fail(scene, name, "inertia", "this key is missing: it turns, and `dynamics` asks for its moments of inertia, or for `density` in place of "
                                          "`mass`.");
     if (!is_of_a_body(rigid->inertia)) scene_fail(scene, name, "density", "its surface encloses a body without thickness, which may turn for nothing.");
-    if (mesh->rotated) into_frame(mesh, rigid->inertia);
-  }
-  for (int k = 0; k < RIGID_UNKNOWNS; k++) {
-    const Support *support = rigid->support[k] < 0 ? NULL : &supports[rigid->support[k]];
-    if (support && (k < 3 ? support->value[k] : support->rotate[k - 3]) != 0)
-      scene_fail(scene, support->name, k < 3 ? "value" : "rotate", "'%s' is free in part: with `dynamics` it is held where it is, or moved in all that it can do.", name);
+    if (physics->mesh->rotated) into_frame(physics->mesh, rigid->inertia);
   }
   rigid->inertial = PETSC_TRUE;
 }

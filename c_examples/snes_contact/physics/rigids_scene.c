@@ -75,7 +75,20 @@ PetscErrorCode rigids_named(Scene *scene, const Physics *physics, const char *ma
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A support of one prescribes what its masks say. */
+/* The support before this one that prescribes the same unknown at one time; NULL: none */
+static const Support *prescribes_already(const Physics *physics, PetscInt number, int k)
+{
+  const Support *support = &physics->supports[number];
+  for (PetscInt s = 0; s < number; s++) {
+    const Support *other = &physics->supports[s];
+    if (other->rigid == support->rigid && ((other->mask | other->turns << 3) & (1 << k)) &&
+        PetscMax(other->from, support->from) < PetscMin(other->until, support->until))
+      return other;
+  }
+  return NULL;
+}
+
+/* A support of one prescribes what its masks say; one that changes leaves it an unknown. */
 void rigids_support(Scene *scene, Physics *physics, PetscInt number)
 {
   static const char *const unknowns[] = {"x", "y", "z", "rx", "ry", "rz"};
@@ -83,15 +96,16 @@ void rigids_support(Scene *scene, Physics *physics, PetscInt number)
   Rigid         *rigid   = &physics->rigids[support->rigid];
   const PetscInt mask    = support->mask | support->turns << 3;
   for (int k = 0; k < RIGID_UNKNOWNS; k++) {
+    const Support *other;
     if (k >= 3 && support->rotate[k - 3] != 0 && !(mask & (1 << k)))
       scene_fail(scene, support->name, "rotate", "%s is not among its components.", unknowns[k]);
     if (!(mask & (1 << k))) continue;
-    if (rigid->support[k] >= 0)
-      scene_fail(scene, support->name, "components", "'%s' prescribes %s of this body already.",
-                 physics->supports[rigid->support[k]].name, unknowns[k]);
+    other = prescribes_already(physics, number, k);
+    if (other) scene_fail(scene, support->name, "components", "'%s' prescribes %s of this body already.", other->name, unknowns[k]);
+    if (k >= 3 && support->rotate[k - 3] != 0) rigid->turned_by |= 1 << k;
+    if (support->timed) continue;
     rigid->support[k] = number;
     rigid->held |= 1 << k;
-    if (k >= 3 && support->rotate[k - 3] != 0) rigid->turned_by |= 1 << k;
   }
 }
 

@@ -116,6 +116,12 @@ PetscErrorCode supports_label(Physics *physics)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+int support_sides(const Physics *physics, const Support *support, PetscReal t)
+{
+  if (t <= 0 || (support->timed && curve_same_time(t, support->from))) return 1;
+  return t >= physics->end || (support->timed && curve_same_time(t, support->until)) ? 0 : 2;
+}
+
 /* A supported vertex of this rank: its place from the support's origin, the support's displacement or its rate there, its displacement
  * of now, and its entries of a local vector. */
 typedef struct {
@@ -158,7 +164,7 @@ static PetscErrorCode visit(Physics *physics, Vec local, PetscReal t, SupportMot
       if (motion == SUPPORT_PLACE)
         prescribed_displacement(support, t, mesh->here[points[k]], X, vertex.u);
       else
-        prescribed_rate(support, t, t <= 0 ? 1 : t >= physics->end ? 0 : 2, (PetscBool)(motion == SUPPORT_ACCELERATION), mesh->here[points[k]], X, vertex.u);
+        prescribed_rate(support, t, support_sides(physics, support, t), (PetscBool)(motion == SUPPORT_ACCELERATION), mesh->here[points[k]], X, vertex.u);
       mesh_rotate_vector(mesh, vertex.u);
       for (int i = 0; i < 3; i++) {
         vertex.arm[i] = X[i] - support->origin[i];
@@ -201,8 +207,8 @@ PetscErrorCode supports_values(Physics *physics, PetscReal t)
   PetscFunctionBegin;
   PetscCall(VecZeroEntries(physics->prescribed_local)); /* removed multipliers are prescribed to be zero */
   PetscCall(visit(physics, physics->prescribed_local, t, SUPPORT_PLACE, set_values));
-  PetscCall(timed_values(physics));
   PetscCall(rigids_prescribe(physics, t, physics->prescribed_local));
+  PetscCall(timed_values(physics));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

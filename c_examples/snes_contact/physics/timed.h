@@ -8,7 +8,8 @@ struct Timed {
   Vec        place, let_go, caught;  /* local: p less what the support says; reactions that fade, complete at owned entries; the last ones */
 };
 
-/* Calls for each entry of a local vector that is a component which a support holds of this rank's vertices. */
+/* Calls for each entry of a local vector that is a component which a support holds of this rank's vertices; of a rigid body turns are
+ * components 3 to 5. */
 typedef void (*EntryVisit)(const Support *support, PetscInt entry, int component, PetscBool owned, void *context);
 PetscErrorCode support_visit(const Physics *physics, const Support *support, EntryVisit action, void *context);
 

@@ -17,13 +17,19 @@ static void copy(const Support *support, PetscInt entry, int component, PetscBoo
   copies->to[entry] = copies->from[entry];
 }
 
-static PetscErrorCode take(Physics *physics, const Support *support, Vec from, Vec to)
+/* A turn of a rigid body counts from the last step, and has no place that it was found at. */
+static void copy_place(const Support *support, PetscInt entry, int component, PetscBool owned, void *context)
+{
+  if (component < 3) copy(support, entry, component, owned, context);
+}
+
+static PetscErrorCode take(Physics *physics, const Support *support, EntryVisit action, Vec from, Vec to)
 {
   EntryCopies copies;
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(from, &copies.from));
   PetscCall(VecGetArray(to, &copies.to));
-  PetscCall(timed_visit(physics, support, copy, &copies));
+  PetscCall(timed_visit(physics, support, action, &copies));
   PetscCall(VecRestoreArray(to, &copies.to));
   PetscCall(VecRestoreArrayRead(from, &copies.from));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -39,7 +45,7 @@ PetscErrorCode timed_accept(Physics *physics)
   if (!timed) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt s = 0; s < physics->n_supports; s++) {
     const Support *support = &physics->supports[s];
-    if (support->timed && support->active && curve_same_time(physics->t, support->until)) PetscCall(take(physics, support, timed->caught, timed->let_go));
+    if (support->timed && support->active && curve_same_time(physics->t, support->until)) PetscCall(take(physics, support, copy, timed->caught, timed->let_go));
   }
   PetscCall(VecDuplicate(physics->u_local, &apart));
   for (PetscInt s = 0; s < physics->n_supports; s++) {
@@ -49,7 +55,7 @@ PetscErrorCode timed_accept(Physics *physics)
     PetscCall(supports_values(physics, physics->t));
     PetscCall(VecWAXPY(apart, -1, physics->prescribed_local, physics->u_local));
     PetscCall(VecAXPY(apart, 1, timed->place));
-    PetscCall(take(physics, support, apart, timed->place));
+    PetscCall(take(physics, support, copy_place, apart, timed->place));
   }
   PetscCall(VecDestroy(&apart));
   PetscCall(timed_begin(physics, physics->t, &changed));
@@ -80,14 +86,16 @@ PetscBool timed_bend(const Physics *physics, PetscReal t)
   return PETSC_FALSE;
 }
 
-/* A step, and no longer: while it lasts the model has a force that the scene does not name. */
+/* A step, and no longer: while it lasts the model has a force that the scene does not name. With inertia there is none: what is let go
+ * begins to move, however large the force was. */
 void timed_fade(Physics *physics, PetscInt n, const PetscReal times[], PetscReal longest)
 {
+  if (physics->dynamics) n = 0;
   for (PetscInt s = 0; s < physics->n_supports; s++) {
     Support *support = &physics->supports[s];
     for (PetscInt k = 0; k < n && support->timed && support->fade < 0; k++) {
       if (timed_past(times[k], support->until)) support->fade = PetscMin(times[k] - support->until, longest);
     }
-    if (support->timed && support->fade < 0) support->fade = 0; /* it holds up to the end */
+    if (support->timed && support->fade < 0) support->fade = 0; /* it holds up to the end, or is dynamic */
   }
 }

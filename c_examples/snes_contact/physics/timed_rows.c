@@ -63,6 +63,16 @@ PetscErrorCode timed_residual(Physics *physics, PetscReal scale, Vec r)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode timed_identity(Physics *physics, Mat matrix)
+{
+  HeldEntries held;
+  PetscFunctionBegin;
+  PetscCall(held_entries(physics, &held));
+  PetscCall(MatZeroRowsColumns(matrix, held.n, held.equations, 1, NULL, NULL));
+  PetscCall(PetscFree2(held.equations, held.apart));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode timed_rows(Physics *physics, PetscReal scale, Mat matrix)
 {
   HeldEntries held;

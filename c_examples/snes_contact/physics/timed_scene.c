@@ -23,11 +23,7 @@ PetscErrorCode timed_read(Scene *scene, Physics *physics, Support *support)
   if (scene_has(scene, name, "fade") && !until) scene_fail(scene, name, "fade", "only with `until`: how long the reaction takes to fade.");
   if (scene_has(scene, name, "fade") && support->fade < 0) scene_fail(scene, name, "fade", "it cannot be negative.");
   if (!support->timed) PetscFunctionReturn(PETSC_SUCCESS);
-  if (physics->dynamics || scene_has(scene, "dynamics", "rho_inf"))
-    scene_fail(scene, name, from ? "from" : "until", "`dynamics` has supports that hold from start to end only.");
-  if (support->rigid >= 0)
-    scene_fail(scene, name, from ? "from" : "until", "its body is rigid, whose supports hold from start to end: give it a force, or mesh it.");
-  if (support->from > 0 && (support->rotate[0] != 0 || support->rotate[1] != 0 || support->rotate[2] != 0))
+  if (support->from > 0 && support->rigid < 0 && (support->rotate[0] != 0 || support->rotate[1] != 0 || support->rotate[2] != 0))
     scene_fail(scene, name, "rotate", "a support that is activated moves nodes from where they are: it cannot turn them.");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -73,16 +69,43 @@ const Support *timed_first(const Physics *physics)
   return NULL;
 }
 
-/* A node with a multiplier: what the support does there, and what contact does, could not be told apart. */
-PetscErrorCode timed_refuse(Scene *scene, const Physics *physics, const char *interface, const Surface *nonmortar)
+/* Components in which supports hold all vertices of a surface from start to end. */
+static PetscErrorCode held_everywhere(const Physics *physics, const Surface *surface, PetscInt *mask)
 {
   PetscFunctionBegin;
+  *mask = 7;
+  for (PetscInt k = 0; k < surface->offsets[surface->n_faces]; k++)
+    *mask &= physics->prescribed[surface->vertices[k]];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, mask, 1, MPIU_INT, MPI_BAND, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Why a support may not hold nodes with multipliers for a while; NULL: it may. While it holds, their rows are its own, and what a multiplier is
+ * only the other side's say. */
+static const char *no_multiplier(const Support *support, const TimedSides *sides, PetscInt fixed, PetscInt all)
+{
+  if (sides->condensed)
+    return "with `unknowns: displacements` a multiplier is found from its node's row, which is the support's while it holds. Take `unknowns: multipliers`";
+  if (sides->normal_only ? fixed == all && support->mask == all : fixed & support->mask & all)
+    return "and the mortar side is held as well, from start to end, so that nothing says what the multipliers are meanwhile";
+  return NULL;
+}
+
+PetscErrorCode timed_refuse(Scene *scene, const Physics *physics, const TimedSides *sides)
+{
+  const PetscInt all = physics->mesh->dimension == 3 ? 7 : 3;
+  const Surface *nonmortar = sides->surface[0];
+  PetscInt       fixed;
+  PetscFunctionBegin;
+  if (!timed_first(physics)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(held_everywhere(physics, sides->surface[1], &fixed));
   for (PetscInt s = 0; s < physics->n_supports; s++) {
     const Support *support = &physics->supports[s];
+    const char    *why     = no_multiplier(support, sides, fixed, all);
     char           text[512];
     PetscInt       bad = -1;
     PetscBool     *on;
-    if (!support->timed) continue;
+    if (!support->timed || !why) continue;
     PetscCall(PetscCalloc1(physics->mesh->n_vertices, &on));
     for (PetscInt k = 0; k < nonmortar->offsets[nonmortar->n_faces]; k++)
       on[nonmortar->vertices[k]] = PETSC_TRUE;
@@ -91,8 +114,8 @@ PetscErrorCode timed_refuse(Scene *scene, const Physics *physics, const char *in
     }
     PetscCall(PetscFree(on));
     PetscCall(PetscSNPrintf(text, sizeof(text),
-                            "it holds nodes of '%s', the non-mortar side of '%s', for a part of the run only: nodes with multipliers are held from start "
-                            "to end, or not. Hold other nodes of the body, or make it the mortar side.", nonmortar->name, interface));
+                            "it holds nodes of '%s', the non-mortar side of '%s', for a part of the run only: %s. Hold other nodes of the body, or make it the "
+                            "mortar side.", nonmortar->name, sides->interface, why));
     PetscCall(scene_fail_first(scene, bad, support->name, support->from > 0 ? "from" : "until", text));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,10 +1,10 @@
 /* `solver: iterative`: GMRES, preconditioned by multigrid: of a condensed system on its reduced form (reduced.c), of one with
- * multipliers on the bodies (saddle.c). Where it does
- * not converge, the system is given to the direct solver, and the run says so. To SNES both are one preconditioner that
+ * multipliers on the bodies (saddle.c); the equations of rigid bodies are beside it (bordered.c). Where it does not converge, the system is given to the direct solver, and the run says so. To SNES both are one preconditioner that
  * solves the system. */
 #include "solve/solve.h"
 #include "solve/reduced.h"
 #include "solve/saddle.h"
+#include "solve/bordered.h"
 #include "solve/direct.h"
 
 /* Of the true residual. Newton's method then takes the steps of a direct solver: its own tolerance is 1e-11. */
@@ -15,6 +15,7 @@ enum { MOST_ITERATIONS = 250, RESTART = 60 };
 typedef struct {
   Solve *solve;
   KSP    krylov, direct; /* the latter: NULL until it is needed */
+  PC     bodies;         /* multigrid: the preconditioner of krylov, or within that of rigid bodies */
 } Iterative;
 
 /* Where to look, once a run. */
@@ -53,15 +54,13 @@ static PetscErrorCode solve_directly(Iterative *iterative, Mat J, Vec r, Vec u, 
 static PetscErrorCode iterate(Iterative *iterative, Mat J, Vec r, Vec u, KSPConvergedReason *reason, PetscInt *iterations,
                               PetscBool *stale)
 {
-  PC reduced;
   PetscFunctionBegin;
   PetscCall(KSPSetOperators(iterative->krylov, J, J));
   PetscCall(KSPSolve(iterative->krylov, r, u));
   PetscCall(KSPGetConvergedReason(iterative->krylov, reason));
   PetscCall(KSPGetIterationNumber(iterative->krylov, iterations));
-  PetscCall(KSPGetPC(iterative->krylov, &reduced));
   *stale = PETSC_FALSE;
-  if (iterative->solve->contact->condensed) PetscCall(reduced_judge(reduced, *iterations, (PetscBool)(*reason > 0), stale));
+  if (iterative->solve->contact->condensed) PetscCall(reduced_judge(iterative->bodies, *iterations, (PetscBool)(*reason > 0), stale));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -121,7 +120,8 @@ PetscErrorCode iterative_set(Solve *solve, KSP ksp)
   PetscCall(KSPSetPCSide(iterative->krylov, PC_RIGHT));
   PetscCall(KSPSetTolerances(iterative->krylov, RTOL, 0, PETSC_DEFAULT, MOST_ITERATIONS));
   PetscCall(KSPGetPC(iterative->krylov, &pc));
-  PetscCall((solve->contact->condensed ? reduced_set : saddle_set)(pc, solve->contact));
+  PetscCall(bordered_set(pc, solve->physics, &iterative->bodies));
+  PetscCall((solve->contact->condensed ? reduced_set : saddle_set)(iterative->bodies, solve->contact));
   PetscCall(progress_watch(solve, NULL, iterative->krylov));
   PetscCall(KSPSetFromOptions(iterative->krylov));
   PetscCall(KSPSetType(ksp, KSPPREONLY));
@@ -144,14 +144,11 @@ PetscErrorCode iterative_read(Scene *scene, Solve *solve)
   PetscFunctionBegin;
   scene_choice(scene, NULL, "solver", kinds, &kind);
   solve->linear.kind = (SolverKind)kind;
-  if (kind == SOLVER_ITERATIVE && solve->physics->n_rigids)
-    scene_fail(scene, NULL, "solver", "multigrid does not know rigid bodies, and '%s' is one: write `solver: direct`.",
-               solve->mesh->bodies[solve->physics->rigids[0].body].name);
-  contact->reduced = (PetscBool)(kind != SOLVER_DIRECT && contact->condensed && !solve->physics->n_rigids);
+  contact->reduced = (PetscBool)(kind != SOLVER_DIRECT && contact->condensed);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* With multipliers among the unknowns, multigrid on the bodies needs these to be held. */
+/* With multipliers among the unknowns, multigrid on the bodies needs these to be held; rigid ones are beside it. */
 void iterative_check(Scene *scene, const Solve *solve)
 {
   const Contact *contact = solve->contact;
@@ -161,7 +158,7 @@ void iterative_check(Scene *scene, const Solve *solve)
     if (contact->interfaces[i].method.form == STICKSLIP_FORM_AUGMENTED) return;
   }
   for (PetscInt b = 0; b < solve->mesh->n_bodies; b++)
-    held = (PetscBool)(held && !held_free(solve, b));
+    held = (PetscBool)(held && (solve->mesh->bodies[b].rigid || !held_free(solve, b)));
   if (!held)
     scene_fail(scene, NULL, "solver", "a body is held by contact alone, and multigrid with multipliers needs supports that hold each body: "
                                       "write `unknowns: displacements`, and `basis: dual` in every interface; or take `direct`.");

@@ -1,16 +1,18 @@
 /* Systems with three rows for every node, as multigrid wants them, of systems that have rows for equations alone. Nodes are
- * those of a rank's own; prescribed components have rows of the identity. */
+ * those of a rank's own; prescribed components have rows of the identity, and so have those of rigid bodies. */
 #include "solve/node_blocks.h"
 
-/* The first local entry of each node that this rank owns. */
-static PetscErrorCode own_nodes(const Physics *physics, PetscInt *n, PetscInt **offsets)
+/* The first local entry of each node that this rank owns, and whether it is a rigid body's. */
+static PetscErrorCode own_nodes(const Physics *physics, PetscInt *n, PetscInt **offsets, PetscBool **rigid)
 {
   const Mesh *mesh = physics->mesh;
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(mesh->n_points, offsets));
+  PetscCall(PetscMalloc1(mesh->n_points, rigid));
   *n = 0;
   for (PetscInt k = 0; k < mesh->n_points; k++) {
     if (physics->unknowns.ghost[k]) continue;
+    (*rigid)[*n] = (PetscBool)(rigids_of_vertex(physics, mesh->original[k]) >= 0);
     PetscCall(PetscSectionGetOffset(physics->unknowns.section, mesh->points[k], &(*offsets)[(*n)++]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -42,9 +44,10 @@ static PetscErrorCode fill_coordinates(const Physics *physics, PetscInt n, const
 PetscErrorCode node_blocks_create(const Physics *physics, Mat like, NodeBlocks *blocks)
 {
   PetscInt    n, *offsets, n_rows, first;
+  PetscBool  *rigid;
   PetscScalar one = 1;
   PetscFunctionBegin;
-  PetscCall(own_nodes(physics, &n, &offsets));
+  PetscCall(own_nodes(physics, &n, &offsets, &rigid));
   PetscCall(MatGetLocalSize(like, &n_rows, NULL));
   PetscCall(VecCreate(PETSC_COMM_WORLD, &blocks->coordinates));
   PetscCall(VecSetSizes(blocks->coordinates, 3 * n, PETSC_DETERMINE));
@@ -58,7 +61,7 @@ PetscErrorCode node_blocks_create(const Physics *physics, Mat like, NodeBlocks *
                          &blocks->place));
   for (PetscInt k = 0; k < 3 * n; k++) {
     const PetscInt equation = physics->unknowns.equations[offsets[k / 3] + k % 3];
-    if (equation < 0) continue;
+    if (equation < 0 || rigid[k / 3]) continue;
     PetscCall(MatSetValue(blocks->place, equation, first + k, one, INSERT_VALUES));
     PetscCall(VecSetValue(blocks->prescribed, first + k, 0, INSERT_VALUES));
   }
@@ -67,6 +70,7 @@ PetscErrorCode node_blocks_create(const Physics *physics, Mat like, NodeBlocks *
   PetscCall(VecAssemblyBegin(blocks->prescribed));
   PetscCall(VecAssemblyEnd(blocks->prescribed));
   PetscCall(PetscFree(offsets));
+  PetscCall(PetscFree(rigid));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -4,8 +4,8 @@
 #include "physics/physics.h"
 
 typedef struct {
-  Mat place;       /* equations in terms of nodes' components: one 1 a row */
-  Vec prescribed;  /* 1 in components that have no equation, else 0 */
+  Mat place;       /* equations in terms of nodes' components: one 1 a row, none of rigid bodies */
+  Vec prescribed;  /* 1 in components that have no equation, or a rigid body's, else 0 */
   Vec coordinates; /* at rest */
 } NodeBlocks;
 

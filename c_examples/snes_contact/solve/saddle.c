@@ -21,33 +21,34 @@ typedef struct {
   Mat            place;                    /* the bodies' equations in terms of nodes' components */
 } Saddle;
 
-/* The rank's equations of displacements and of multipliers. */
+/* The rank's equations of displacements and of multipliers; those of rigid bodies are neither (bordered.c). */
 static PetscErrorCode split(const Physics *physics, Mat J, IS *bodies, IS *multipliers)
 {
   const Unknowns *unknowns = &physics->unknowns;
   const Mesh     *mesh     = physics->mesh;
   PetscInt        first, end, n[2] = {0, 0}, *rows[2];
-  PetscBool      *is_body;
+  PetscInt       *kind; /* 0 of multipliers, 1 of displacements, 2 of rigid bodies */
   PetscFunctionBegin;
   PetscCall(MatGetOwnershipRange(J, &first, &end));
-  PetscCall(PetscCalloc1(end - first, &is_body));
+  PetscCall(PetscCalloc1(end - first, &kind));
   for (PetscInt k = 0; k < mesh->n_points; k++) {
     PetscInt at;
     if (unknowns->ghost[k]) continue;
     PetscCall(PetscSectionGetOffset(unknowns->section, mesh->points[k], &at));
     for (int i = 0; i < 3; i++) {
-      if (unknowns->equations[at + i] >= 0) is_body[unknowns->equations[at + i] - first] = PETSC_TRUE;
+      if (unknowns->equations[at + i] >= 0)
+        kind[unknowns->equations[at + i] - first] = rigids_of_vertex(physics, mesh->original[k]) < 0 ? 1 : 2;
     }
   }
   for (int field = 0; field < 2; field++) {
     PetscCall(PetscMalloc1(end - first, &rows[field]));
     for (PetscInt row = first; row < end; row++) {
-      if (is_body[row - first] == !field) rows[field][n[field]++] = row;
+      if (kind[row - first] == !field) rows[field][n[field]++] = row;
     }
   }
   PetscCall(ISCreateGeneral(PETSC_COMM_WORLD, n[0], rows[0], PETSC_OWN_POINTER, bodies));
   PetscCall(ISCreateGeneral(PETSC_COMM_WORLD, n[1], rows[1], PETSC_OWN_POINTER, multipliers));
-  PetscCall(PetscFree(is_body));
+  PetscCall(PetscFree(kind));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

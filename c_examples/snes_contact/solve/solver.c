@@ -118,7 +118,7 @@ static PetscErrorCode solve_ends(KSP ksp, Vec b, Vec x, void *context)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The model's size, and a stiffness (the largest E times it). */
+/* The model's size, and a stiffness (the largest E times it; of rigid bodies alone any will do). */
 static PetscErrorCode measure(Solve *solve)
 {
   PetscReal low[3], high[3], squared = 0, young = 0;
@@ -129,7 +129,7 @@ static PetscErrorCode measure(Solve *solve)
   for (PetscInt b = 0; b < solve->mesh->n_bodies; b++)
     young = PetscMax(young, solve->physics->materials[b].young);
   solve->size      = PetscSqrtReal(squared);
-  solve->stiffness = young * solve->size;
+  solve->stiffness = young > 0 ? young * solve->size : 1;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
