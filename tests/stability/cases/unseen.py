@@ -1,6 +1,8 @@
 """What neither forces nor weighted gaps know of a converged step: pressure along normals of its start, and bodies that overlap within facets
 that are coarser than the contact. The answer is right, or the run says why not; never a wrong one without a word."""
 
+import re
+
 import numpy as np
 
 import host
@@ -13,6 +15,8 @@ SHEAR = 0.02
 CELLS = (96, 48, 24, 12, 4, 1)
 # Two meshes' errors: the same with the roles exchanged.
 EXCHANGED = 0.1
+# Where the run itself says that its facets do not feel the contact it is an estimate, and no more is asked of it.
+TOLD = 0.5
 OVERLAP, TURNED = "overlap|although they are .* apart", "has turned within the step"
 BODY = {"type": "box", "young": 1000, "poisson": 0.3}
 
@@ -77,7 +81,11 @@ def coarse(cells):
         if result.refusal is None:
             wanted = context.solve(ball(cells, exchanged=True), name="exchanged")
             forces = [abs(run.steps[-1]["reactions"]["ground"][1]) for run in (found, wanted)]
-            result.below("force", abs(forces[0] / forces[1] - 1), EXCHANGED, "that with the roles exchanged")
+            told = re.search(OVERLAP, found.text)
+            if told:
+                result.warnings.append(f"the run tells: {told[0]}")
+            bound, reason = (TOLD, "an estimate, as the run says") if told else (EXCHANGED, "that with the roles exchanged")
+            result.below("force", abs(forces[0] / forces[1] - 1), bound, reason)
         return result
 
     return run
