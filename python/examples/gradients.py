@@ -31,9 +31,11 @@ def stiffness(nodes, cells, poisson=0.3):
 
 
 class Run:
-    """A block on another one: its top is pressed down, pulled along and back. Parameters: mu, modulus of the block, press, offset."""
+    """A block on another one: its top is pressed down, pulled along and back. Parameters: mu, modulus of the block, press, offset. The
+    functional is the mean square of the pulling force, less ``target`` of each step."""
 
-    def __init__(self, steps=20, **options):
+    def __init__(self, steps=20, target=0.0, **options):
+        self.target = target
         (top, cells), (base, below) = block(6, 2, (0.3, 0.0), (1.7, 0.5)), block(9, 2, (0, -0.5), (2, 0.0))
         self.X, below = np.vstack([top, base]), below + len(top)
         self.parts = stiffness(self.X, cells), stiffness(self.X, below)
@@ -66,17 +68,17 @@ class Run:
 
     def forces(self, ends, modulus):
         """What pulls at the driven nodes at the end of each step."""
-        return [self.along @ (modulus * self.parts[0]) @ end[: self.X.size] for end in ends]
+        return np.array([self.along @ (modulus * self.parts[0]) @ end[: self.X.size] for end in ends])
 
     def functional(self, ends, modulus=1.0):
-        """The mean square of that force."""
-        return np.mean(np.square(self.forces(ends[1:], modulus)))
+        """Their mean square, less the target."""
+        return np.mean(np.square(self.forces(ends[1:], modulus) - self.target))
 
     def gradient(self, ends, mu=0.3, modulus=1.0, press=0.03, offset=0.0):
         """By all parameters, in one run backwards."""
         k, n_host = modulus * self.parts[0] + self.parts[1], self.X.size
         slopes = np.zeros((len(ends), self.contact.size))
-        slopes[:, :n_host] = np.outer(2 / self.steps * np.array(self.forces(ends, modulus)), k @ self.along)
+        slopes[1:, :n_host] = np.outer(2 / self.steps * (self.forces(ends[1:], modulus) - self.target), k @ self.along)
         d = dict.fromkeys(("mu", "modulus", "press", "offset"), 0.0)
         for n, a, (g,) in backward(self.contact, ends, lambda n: k, lambda n: slopes[n], ("friction", "offsets1"), fixed=self.fixed):
             soft = self.parts[0] @ ends[n][:n_host]

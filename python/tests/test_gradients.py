@@ -179,6 +179,15 @@ def test_runs(options):
         assert min(abs(exact[name] / d - 1) for d in near) <= RUNS, name
 
 
+def test_calibration():
+    """Friction and stiffness from a curve: found again by few runs, and near the truth from a noisy one."""
+    import calibration
+
+    truth = list(calibration.TRUTH.values())
+    assert calibration.runs <= 30 and np.abs(calibration.exact / truth - 1).max() <= 1e-6
+    assert np.abs(calibration.noisy / truth - 1).max() <= 3 * calibration.NOISE
+
+
 def test_what_is_refused():
     case = Case("tri3", form="augmented")
     with pytest.raises(stickslip.errors.Error, match="derivatives by positions of t_n.*augmented"):
