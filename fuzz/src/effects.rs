@@ -1,6 +1,7 @@
 //! An interface with what a scene may ask for besides Coulomb's law: decisions at points, laws in its place, those of a host that
-//! answers anything, heat, offsets of both sides. The calls of `interface.rs` go on between these.
+//! answers anything, heat, derivatives by what is no unknown, offsets of both sides. The calls of `interface.rs` go on between these.
 
+use super::derivatives::derivatives;
 use super::interface::{Scene, shake};
 use super::meshes::{N1, N2};
 use super::{Bytes, Watched, all_finite, succeeded};
@@ -224,6 +225,7 @@ pub fn run(data: &[u8]) {
                 succeeded(unsafe { stickslip_interface_set_offsets(h, one, two) });
             }
             5 => equilibrium(&scene, &mut bytes),
+            6 => derivatives(&scene, &mut bytes),
             _ => scene.call(&mut bytes),
         }
     }

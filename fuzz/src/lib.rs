@@ -3,6 +3,7 @@
 
 pub mod abi;
 mod bytes;
+mod derivatives;
 pub mod effects;
 pub mod interface;
 mod lines;

@@ -24,8 +24,8 @@ enum {
 static const int members[] = {PREVIOUS1, PREVIOUS2, NOW1, NOW2, FRICTION, SHEAR_LIMIT, OFFSETS1, OFFSETS2, DEPENDS};
 
 typedef struct {
-  int32_t friction, slip, weights, normals, basis;
-  double shear_limit;
+  int32_t friction, slip, weights, normals, basis, integration;
+  double shear_limit, slide; /* off the mortar side's edge, so that nodes are carried */
 } kind;
 static const kind kinds[] = {
     {.slip = STICKSLIP_SLIP_INCREMENT},
@@ -36,6 +36,9 @@ static const kind kinds[] = {
     {.basis = STICKSLIP_BASIS_DUAL},
     {.friction = STICKSLIP_FRICTION_TRESCA, .shear_limit = 0.1}, /* some nodes slip at it, others at mu times the pressure */
     {.friction = STICKSLIP_FRICTION_NONE},
+    {.friction = STICKSLIP_FRICTION_ROUGH, .integration = STICKSLIP_INTEGRATION_ELEMENTS},
+    {.basis = STICKSLIP_BASIS_DUAL, .slide = 0.9},
+    {.basis = STICKSLIP_BASIS_DUAL, .slide = 0.9, .normals = STICKSLIP_NORMALS_CURRENT, .slip = STICKSLIP_SLIP_INCREMENT},
 };
 
 static scene s;
@@ -55,7 +58,7 @@ static stickslip_direction direction_of(const double *v) {
   return d;
 }
 
-/* A scene of this kind, and its arguments. */
+/* A scene of this kind, and its arguments. At t_n the non-mortar side lay flat where it has slid to. */
 static void set_up(const kind *k, int64_t base, double *at) {
   scene_init_base(&s, base);
   s.options.friction = k->friction;
@@ -63,14 +66,19 @@ static void set_up(const kind *k, int64_t base, double *at) {
   s.options.mu = has_mu(k->friction) ? 0.2 : 0.0;
   s.method.slip = k->slip;
   s.method.weights = k->weights;
+  s.method.integration = k->integration;
+  if (k->slide != 0.0) s.method.weak_coverage = 0.5;
   if (k->normals) s.method.normals = k->normals;
   if (k->basis) s.method.multiplier_basis = k->basis;
   /* Derivatives hold the scale of rows. Differences do not. */
   s.method.row_scale = STICKSLIP_ROW_SCALE_NONE;
-  memcpy(at + PREVIOUS1, s.reference1, sizeof s.reference1);
   memcpy(at + PREVIOUS2, s.reference2, sizeof s.reference2);
+  scene_slide(&s, k->slide);
   memcpy(at + NOW1, s.x1, sizeof s.x1);
   memcpy(at + NOW2, s.x2, sizeof s.x2);
+  memcpy(s.x1, s.reference1, sizeof s.x1);
+  scene_slide(&s, k->slide);
+  memcpy(at + PREVIOUS1, s.x1, sizeof s.x1);
   for (int a = 0; a < N1; ++a) at[FRICTION + a] = s.options.mu;
   at[SHEAR_LIMIT] = k->shear_limit;
   for (int j = OFFSETS1; j < DEPENDS; ++j) at[j] = 1e-3 * (j % 5 - 2);
@@ -153,6 +161,9 @@ static void check_differences(double *at, int rows) {
     const int slips = s.options.friction != STICKSLIP_FRICTION_NONE;
     CHECK((of_all > SMALLEST) == (is_there(members[m]) && (slips || members[m] != PREVIOUS2)));
   }
+  stickslip_counters counters = {.struct_size = sizeof counters};
+  CHECK_OK(stickslip_interface_counters(s.interface, &counters));
+  CHECK((counters.nodes_carried > 0) == (s.method.weak_coverage > 0.0));
   scene_destroy(&s);
 }
 
