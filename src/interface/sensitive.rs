@@ -8,116 +8,18 @@ use super::data::extent::Extent;
 use super::data::options::Weights;
 use super::data::setup::Setup;
 use super::pairing::given::Given;
-use super::sensitivity::carriers::through_shares;
-use super::sensitivity::normals::through_normals;
-use super::sensitivity::parameters::{Slipping, by_threshold, through_offsets, through_threshold};
-use super::sensitivity::weights::{through_gaps, through_weights};
-use super::sensitivity::{Answer, At, Column, Take, Wanted, weights_of};
+use super::sensitivity::layout::{Layout, Natural};
+use super::sensitivity::{Column, Known, Wanted, derivatives};
 use super::stages::acting::acting;
-use super::stages::carried::carriers_sums;
-use super::stages::sums::in_previous_gaps;
 use super::tangent::by_equations::{Numbers, Sink};
 use super::tangent::emission::Place;
-use super::tangent::read::square;
-use super::tangent::turning::{Turning, Turns};
-use super::weights::facet::{FacetWeights, each_facet};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
-use crate::law::Remembers;
-use crate::memory::{self, Stored};
+use crate::memory;
 use nalgebra::SVector;
-use std::ops::Range;
-
-/// Where everything stands in the vectors of residuals and of what they depend on.
-#[derive(Clone, Copy, Debug)]
-pub struct Layout {
-    /// Nodes of both sides.
-    nodes: [usize; 2],
-    /// Components of a multiplier.
-    components: usize,
-}
-
-impl Layout {
-    /// What the residual's forces on one side have, three numbers a node; of what it depends on: the positions of now.
-    pub fn now(&self, side: usize) -> Range<usize> {
-        let first = 3 * self.nodes[0] * side;
-        first..first + 3 * self.nodes[side]
-    }
-
-    /// The residual's rows of multipliers.
-    pub fn rows(&self) -> Range<usize> {
-        let first = 3 * (self.nodes[0] + self.nodes[1]);
-        first..first + self.components * self.nodes[0]
-    }
-
-    /// The positions at t_n.
-    pub fn previous(&self, side: usize) -> Range<usize> {
-        let (all, now) = (3 * (self.nodes[0] + self.nodes[1]), self.now(side));
-        all + now.start..all + now.end
-    }
-
-    /// mu of the non-mortar nodes.
-    pub fn friction(&self) -> Range<usize> {
-        let first = self.previous(1).end;
-        first..first + self.nodes[0]
-    }
-
-    /// The largest shear traction.
-    pub fn shear_limit(&self) -> usize {
-        self.friction().end
-    }
-
-    /// The offsets.
-    pub fn offsets(&self, side: usize) -> Range<usize> {
-        let first = self.shear_limit() + 1 + self.nodes[0] * side;
-        first..first + self.nodes[side]
-    }
-
-    /// The first place of a column.
-    fn place(&self, column: Column) -> usize {
-        match column {
-            Column::Previous(node) => self.previous(0).start + 3 * node,
-            Column::Friction(a) => self.friction().start + a,
-            Column::ShearLimit => self.shear_limit(),
-            Column::Offset(node) => self.offsets(0).start + node,
-        }
-    }
-
-    /// Numbers of a residual.
-    pub fn residual(&self) -> usize {
-        self.rows().end
-    }
-
-    /// Numbers of what it depends on.
-    pub fn arguments(&self) -> usize {
-        self.offsets(1).end
-    }
-}
 
 /// Takes derivatives, with what the interface is.
 type TakeWith<'a, const N: usize> = dyn FnMut(&Setup<N>, Place, Column, &[f64]) + 'a;
-
-/// The residual's places as equations.
-struct Natural<const N: usize> {
-    sides: [Vec<[i64; 3]>; 2],
-    multipliers: Vec<[i64; N]>,
-}
-
-impl<const N: usize> Natural<N> {
-    fn of(layout: &Layout) -> Result<Self> {
-        let side = |side: usize| {
-            let first = layout.now(side).start;
-            (0..layout.nodes[side]).map(move |k| std::array::from_fn(|i| (first + 3 * k + i) as i64)).stored()
-        };
-        let first = layout.rows().start;
-        let multipliers = (0..layout.nodes[0]).map(|a| std::array::from_fn(|i| (first + N * a + i) as i64)).stored()?;
-        Ok(Natural { sides: [side(0)?, side(1)?], multipliers })
-    }
-
-    fn numbers(&self) -> Numbers<'_, N> {
-        Numbers { sides: [&self.sides[0], &self.sides[1]], multipliers: &self.multipliers }
-    }
-}
 
 impl<const N: usize> Contact<N> {
     /// Where everything stands.
@@ -212,7 +114,7 @@ impl<const N: usize> Contact<N> {
         self.linearise_by_equations((x[0], x[1]), lambda, Extent::Whole, (None, Some(natural.numbers())), (sink, None))
     }
 
-    /// Gives the derivatives, with the host's equations and whether a row is one of this handle.
+    /// Gives the derivatives at (x, lambda), at which it evaluates.
     fn differentiate(
         &mut self,
         x: [&[Vec3]; 2],
@@ -238,67 +140,11 @@ impl<const N: usize> Contact<N> {
             let before = (&history.x1[..], &history.x2[..]);
             acting(surfaces, &self.setup.options, filter, &mut self.cache.work, before, &mut active)?;
         }
-        let (setup, step) = (&self.setup, &self.step);
-        let given = Given { setup, step };
-        let pairs = self.cache.weighted(surfaces, history);
-        let weights = weights_of(surfaces, [pairs, history.weighted(surfaces)])?;
-        let (normals, known) = (given.normals()?, self.cache.answers());
-        let (sums, responses) = (&known.sums[..], &known.responses);
-        let answer = |a: usize| {
-            let (of, scale) = (&responses.nodes[a], if setup.nodes.is_own(a) { given.row_scale(a) } else { 0.0 });
-            let by_gap = [of.drow_dnow, of.drow_dprevious].map(|by| square(&by) * scale);
-            let lambda = Vec3::from_fn(|i, _| lambda[a].get(i).copied().unwrap_or(0.0));
-            Answer { by_gap, lambda, scale, augmentation: given.augmentation(a) }
-        };
-        let answers = (0..given.nodes()).map(answer).stored()?;
-        let slip = setup.effects.law.slips.then(|| setup.options.effective_slip().coefficients().1);
-        let at = At {
-            surfaces,
-            step,
-            nodes: &setup.nodes,
-            components: N,
-            slip,
-            first_gap: f64::from(setup.options.friction.law().remembers == Remembers::FirstGap),
-            x,
-            sums,
-            answers: &answers,
-            carried: &responses.carried,
-            normals: &normals,
-            weights: &weights,
-        };
+        let setup = &self.setup;
+        let given = Given { setup, step: &self.step };
+        let (answers, pairs) = (self.cache.answers(), self.cache.weighted(surfaces, history));
+        let known = Known { given, x, lambda, pairs, sums: &answers.sums, responses: &answers.responses };
         let mut give = |row: Place, column: Column, values: &[f64]| take(setup, row, column, values);
-        let take: &mut Take = &mut give;
-        if wanted.previous {
-            through_gaps(&at, take);
-            through_shares(&at, take)?;
-            if follows && slip.is_some() {
-                let through = &mut |facet: &FacetWeights| through_weights(&at, (&active, facet), take);
-                each_facet((given, &normals), (&active, responses), through)?;
-            }
-            let keeps = |a: usize| step.now.is_none() || step.pairing.keeps_normal[a];
-            if follows && setup.nodes.normals.is_none() && (0..given.nodes()).any(keeps) {
-                let (mut corner_sums, mut room) = (Vec::new(), Vec::new());
-                surfaces.0.add_normals(&history.x1, &mut corner_sums)?;
-                let turning = Turning { x1: &history.x1, corner_sums: &corner_sums, turns: &keeps };
-                let (of, scale) = ((pairs, sums, responses), &|a| given.row_scale(a));
-                let turns = Turns::of(given, turning, lambda, of, &normals, scale, &mut room)?;
-                through_normals(&at, given, &turns, take);
-            }
-        }
-        if wanted.parameters {
-            let shared = carriers_sums(given, sums, &responses.carried, &normals)?;
-            for (a, response) in responses.nodes.iter().enumerate().filter(|_| N == 3) {
-                let sums = shared.binary_search_by_key(&a, |(b, _)| *b).map_or(&sums[a], |k| &shared[k].1);
-                let slipping = Slipping { lambda: &lambda[a], sums, response };
-                let is_carried = responses.carried.get(a).is_some_and(|is| *is);
-                if let Some(by) = if is_carried { None } else { by_threshold(given, a, slipping)? } {
-                    through_threshold(&at, a, by, take);
-                }
-            }
-            // The offsets of now are in both gaps where slip is a difference of the two, and where weights are frozen.
-            let both = slip.is_some() && (in_previous_gaps(given) || !setup.options.differentiates_weights());
-            through_offsets(&at, both, take);
-        }
-        Ok(())
+        derivatives(known, wanted, follows.then_some(&active), &mut give)
     }
 }
