@@ -226,7 +226,7 @@
 
 /// P g[n_n,x]: the paper's literal (12); drifts on curved interfaces.
 /// Not with (UNSUPPORTED): persistent weights (STICKSLIP_WEIGHTS_PERSISTENT); points that decide (STICKSLIP_DECISION_POINTS)
-/// and friction (STICKSLIP_FRICTION_COULOMB).
+/// and friction.
 #define STICKSLIP_SLIP_PAPER 2
 
 /// Of now; with STICKSLIP_DECISION_POINTS and friction those of the last commit. Default.
@@ -348,15 +348,14 @@
 /// and is E* of both bodies together: 1 / E* = (1 - nu1^2) / E1 + (1 - nu2^2) / E2, of a rigid one without its part. The answer depends
 /// on it, by what vanishes with the facets' size. An augmentation beside it takes the place of r = 0.9 E* / h_A alone; r is then part of the
 /// answer, too.
-/// Not with (UNSUPPORTED): tied surfaces (STICKSLIP_FRICTION_TIED); a law that is not Coulomb's; friction
-/// (STICKSLIP_FRICTION_COULOMB) and weights of now (STICKSLIP_WEIGHTS_CURRENT); friction (STICKSLIP_FRICTION_COULOMB) and
-/// the paper's slip measure (STICKSLIP_SLIP_PAPER); standard multipliers (STICKSLIP_BASIS_STANDARD); persistent weights
-/// (STICKSLIP_WEIGHTS_PERSISTENT); normals of now (STICKSLIP_NORMALS_CURRENT); the augmented form
+/// Not with (UNSUPPORTED): tied surfaces (STICKSLIP_FRICTION_TIED); friction and weights of now (STICKSLIP_WEIGHTS_CURRENT);
+/// friction and the paper's slip measure (STICKSLIP_SLIP_PAPER); standard multipliers (STICKSLIP_BASIS_STANDARD); persistent
+/// weights (STICKSLIP_WEIGHTS_PERSISTENT); normals of now (STICKSLIP_NORMALS_CURRENT); the augmented form
 /// (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (method.element_points); nodes that others carry
 /// (weak_coverage > 0, the default of dual multipliers); an analytic mortar side; facets with mid nodes; a law of one's own;
 /// offsets and weights of now (STICKSLIP_WEIGHTS_CURRENT); parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE); nodes
-/// that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes (stickslip_interface_set_committed) and friction
-/// (STICKSLIP_FRICTION_COULOMB); condensation; heat; derivatives by positions of t_n and by parameters.
+/// that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes (stickslip_interface_set_committed) and
+/// friction; condensation; heat; derivatives by positions of t_n and by parameters.
 #define STICKSLIP_DECISION_POINTS 1
 
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
@@ -1596,7 +1595,7 @@ int32_t stickslip_interface_set_previous(struct stickslip_interface *interface,
 /// slip (3 n1) [L]: what `stickslip_interface_states` had after the commit; NULL: none. Interfaces that remember no slip
 /// (tied, rough, without friction) ignore it. What a law remembers becomes 0; `stickslip_interface_set_law_states` afterwards.
 ///
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS) and friction (STICKSLIP_FRICTION_COULOMB).
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS) and friction.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (commits < 0, a
 /// mortar surface in layers, an analytic surface's frame), UNSUPPORTED.

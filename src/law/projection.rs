@@ -67,6 +67,12 @@ impl Threshold {
     pub fn cone(mu: f64, sigma_n: f64) -> Threshold {
         Threshold { radius: -mu * sigma_n, fall: mu }
     }
+
+    /// The same up to a limit, which decides from where the cone reaches it on.
+    pub fn up_to(limit: f64, mu: f64, sigma_n: f64) -> Threshold {
+        let cone = Threshold::cone(mu, sigma_n);
+        if cone.radius < limit { cone } else { Threshold { radius: limit, fall: 0.0 } }
+    }
 }
 
 /// Projects the augmented traction `sigma` of a covered node with unit normal `normal` and friction

@@ -11,8 +11,7 @@ pub struct Tresca;
 
 impl Cone for Tresca {
     fn threshold(node: &Node, sigma_n: f64) -> Threshold {
-        let cone = Threshold::cone(node.mu, sigma_n);
-        if cone.radius < node.shear_limit { cone } else { Threshold { radius: node.shear_limit, fall: 0.0 } }
+        Threshold::up_to(node.shear_limit, node.mu, sigma_n)
     }
 }
 

@@ -116,6 +116,34 @@ fn tangents_of_lines_are_those_of_differences() {
 
 /// Newton's matrix of a plan, in two numbers of threads, is that of entries one by one.
 #[test]
+fn shear_has_a_limit_and_rough_points_stick() {
+    const LIMIT: f64 = 0.15;
+    // The frame of `moved`.
+    let nu = nalgebra::Rotation3::from_euler_angles(0.4, -0.9, 1.3) * Vec3::z();
+    let (mut limited, mut stuck) = (0, 0);
+    for (of, seed) in both(0.7).into_iter().flat_map(|of| [3, 8].map(|seed| (of, seed))) {
+        let tresca = |limit| Options { friction: Friction::Tresca, shear_limit: Some(limit), ..of };
+        let mut cone = scene(of, CELLS[0], FLAT, seed);
+        let far_off = scene(tresca(1e9), CELLS[0], FLAT, seed).residual();
+        assert_eq!(difference(&far_off, &cone.residual()), 0.0, "no point reaches it");
+        let mut s = scene(tresca(LIMIT), CELLS[0], FLAT, seed);
+        assert!(s.error() <= DIFFERENCES);
+        limited += i32::from(difference(&s.residual(), &cone.residual()) > 0.01);
+        for r in s.contact.responses(&s.x1, &s.x2, &s.lambda, None).unwrap() {
+            // Means of points' tractions, all of them along flat facets.
+            let shear = r.traction - nu * nu.dot(&r.traction);
+            assert!(shear.norm() <= LIMIT * (1.0 + ROUNDING), "{shear}");
+        }
+        let mut rough = scene(Options { friction: Friction::Rough, mu: 0.0, ..of }, CELLS[0], FLAT, seed);
+        assert!(rough.error() <= DIFFERENCES);
+        let responses = rough.contact.responses(&rough.x1, &rough.x2, &rough.lambda, None).unwrap();
+        assert!(responses.iter().all(|r| r.state != State::Slip));
+        stuck += responses.iter().filter(|r| r.state == State::Stick).count();
+    }
+    assert!(limited > 0 && stuck > 10, "{limited} {stuck}");
+}
+
+#[test]
 fn a_plan_has_the_same_tangent() {
     for (threads, cells) in [(1, CELLS[0]), (3, CELLS[2])] {
         let mut s = scene(Options { threads, ..by_points(0.4) }, cells, FLAT, 3);
@@ -260,7 +288,8 @@ fn what_friction_at_points_does_not_go_with_is_refused_by_name() {
     refused(Options { weights: Weights::Current, ..of }, "WEIGHTS_COMMITTED");
     refused(Options { slip: SlipMeasure::Paper, ..of }, "paper's slip measure");
     refused(Options { friction: Friction::Tied, mu: 0.0, ..of }, "tied");
-    refused(Options { friction: Friction::Tresca, mu: 0.0, shear_limit: Some(0.2), ..of }, "not Coulomb's");
+    let limited = Options { friction: Friction::Tresca, shear_limit: Some(0.2), weights: Weights::Current, ..of };
+    refused(limited, "WEIGHTS_COMMITTED");
     let mut s = scene(by_points(0.4), CELLS[0], FLAT, 3);
     let slip = vec![Vec3::zeros(); s.x1.len()];
     let error = s.contact.set_committed(&s.x1, &s.x2, &slip, 1).unwrap_err();

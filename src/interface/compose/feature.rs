@@ -49,8 +49,7 @@ features! {
     FrozenWeights "frozen weights" "take STICKSLIP_WEIGHTS_CURRENT";
     KeptOverlaps "persistent weights (STICKSLIP_WEIGHTS_PERSISTENT)" "take other weights";
     PaperSlip "the paper's slip measure (STICKSLIP_SLIP_PAPER)" "take STICKSLIP_SLIP_OBJECTIVE or STICKSLIP_SLIP_INCREMENT";
-    Friction "friction (STICKSLIP_FRICTION_COULOMB)" "take STICKSLIP_FRICTION_NONE";
-    OtherLaw "a law that is not Coulomb's" "take STICKSLIP_FRICTION_COULOMB or STICKSLIP_FRICTION_NONE";
+    Friction "friction" "take STICKSLIP_FRICTION_NONE";
     Tied "tied surfaces (STICKSLIP_FRICTION_TIED)" "take another law";
     OwnLaw "a law of one's own" "leave Coulomb's";
     Orthotropic "orthotropic friction" "give one mu";

@@ -94,7 +94,6 @@ rows! {
     Meaningless [NormalsNow FrozenWeights] "gaps and normals would be of different configurations" [FrozenWeights NormalsNow];
     Meaningless [PaperSlip KeptOverlaps] "the work of friction would not be that of its slip" [PaperSlip];
     Meaningless [Points Tied] "there is nothing to decide" [Points];
-    NotBuilt [Points OtherLaw] "" [OtherLaw Points];
     NotBuilt [Points Friction WeightsNow] "points remember a traction, and are the same within a step with frozen weights alone" [WeightsNow Points];
     Meaningless [Points Friction PaperSlip] "points remember what slipped before, and need the slip of a step" [PaperSlip];
     Meaningless [Points StandardBasis] "gaps of points are measured by dual functions" [StandardBasis];

@@ -341,7 +341,6 @@ impl Options {
     #[inline(never)]
     pub fn features(&self) -> Features {
         let (law, is_now) = (self.friction.law(), self.effective_weights() == Weights::Current);
-        let is_known = matches!(self.friction, Friction::None | Friction::Coulomb);
         Features::which(&[
             (Feature::StandardBasis, self.basis == MultiplierBasis::Standard),
             (Feature::DualBasis, self.basis == MultiplierBasis::Dual),
@@ -352,8 +351,7 @@ impl Options {
             (Feature::WeightsCommitted, self.effective_weights() == Weights::Committed),
             (Feature::KeptOverlaps, self.keeps_overlaps()),
             (Feature::PaperSlip, self.slip == SlipMeasure::Paper),
-            (Feature::Friction, self.friction == Friction::Coulomb),
-            (Feature::OtherLaw, law.opens && !is_known),
+            (Feature::Friction, law.opens && law.multipliers > 1),
             (Feature::Tied, !law.opens),
             (Feature::Points, self.decides_at_points()),
             (Feature::ElementPoints, self.scheme != Scheme::Segments),

@@ -43,7 +43,10 @@ impl Told {
         self.normal += n * node.normal;
         self.along += node.along * n;
         self.field += node.field * n;
-        self.mu += n * node.mu;
+        // Rough where a rough node has a part in the point; else infinity times 0 is no number.
+        if node.mu.is_finite() || n > 0.0 {
+            self.mu += n * node.mu;
+        }
         self.rhat += n * node.rhat;
     }
 }
@@ -105,6 +108,7 @@ impl Points {
 
     /// The answers of the points of a facet, and its nodes' shares of them.
     fn ask<const N: usize>(&mut self, given: Given<N>, at: usize) -> Result<Shares> {
+        let limit = given.setup.options.shear_limit.unwrap_or(f64::INFINITY);
         let (facet, remembered, mu) = (&self.facets[at], &given.history().states, &given.setup.nodes.mu);
         let (nodes, e, rhat, friction) = (facet.nodes(), facet.normal, &self.rhat, &mut self.friction);
         let is_open = nodes.iter().all(|&a| friction.nodes[a].sigma.0 >= 0.0);
@@ -124,7 +128,7 @@ impl Points {
                 let trial = here.along + Vec3::from_fn(|i, _| remembered[REALS_PER_POINT * q + i]);
                 let answer = match is_open {
                     true => Projected::gap(),
-                    false => project_parts(here.normal, trial, e, Threshold::cone(here.mu, here.normal)),
+                    false => project_parts(here.normal, trial, e, Threshold::up_to(limit, here.mu, here.normal)),
                 };
                 all.add(&answer, point, answer.tangential.dot(&(trial - answer.tangential)) / here.rhat);
                 let force = answer.traction * point.weight;
