@@ -3,6 +3,7 @@
 
 use super::choice::{Asked, Choice};
 use super::handles::{Handles, Refused, TakesLaw, of, when};
+use super::previous::by_previous_positions;
 use super::scene::{At, Scene};
 use super::system::{Direction, System};
 use crate::support::differences::Point;
@@ -72,7 +73,7 @@ fn error(found: &[Vec<f64>], expected: &[Vec<f64>]) -> f64 {
 }
 
 /// Compares what `value` does along a direction with its derivative; states that change are kinks. Whether it was compared.
-fn compare<E>(
+pub fn compare<E>(
     found: &mut Found,
     what: &str,
     exact: &[Vec<f64>],
@@ -142,6 +143,9 @@ where
             found.wrong("after a commit and its rollback the residual has other bits".to_owned());
         }
         when(Asked::Residual, handles.commit(&at))?;
+        if choice.is("derivatives", "previous") {
+            by_previous_positions(&scene, &mut handles, &at, &mut found)?;
+        }
         if choice.is("restart", "committed") {
             restart(&scene, &mut handles, &at, &mut found)?;
         }

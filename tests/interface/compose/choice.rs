@@ -3,7 +3,7 @@
 use stickslip::interface::compose::{Feature, Features};
 
 /// Each kind of choice with its values, the default first.
-pub const DIMENSIONS: [(&str, &[&str]); 21] = [
+pub const DIMENSIONS: [(&str, &[&str]); 22] = [
     ("facet", &["quad4", "tri3", "tri6", "quad8", "quad9", "mixed", "line2p", "line3p", "line2a", "line3a"]),
     ("basis", &["standard", "dual"]),
     ("space", &["corner", "sub"]),
@@ -25,6 +25,7 @@ pub const DIMENSIONS: [(&str, &[&str]); 21] = [
     ("new_contact", &["frictionless", "friction"]),
     ("extra", &["no", "constraints", "normals"]),
     ("restart", &["no", "committed"]),
+    ("derivatives", &["no", "previous"]),
 ];
 
 /// A value of each.
@@ -165,6 +166,7 @@ impl Choice {
             (Feature::NormalsNow, self.is("normals", "current") && !tied),
             (Feature::WeightsNow, self.is_current()),
             (Feature::FrozenWeights, !self.is_current()),
+            (Feature::WeightsCommitted, self.is("weights", "committed") && !tied),
             (Feature::KeptOverlaps, self.is("weights", "persistent") && !tied),
             (Feature::PaperSlip, self.is("slip", "paper")),
             (Feature::Friction, self.is("law", "coulomb") || self.is("law", "mu0") || self.has_own_law()),
@@ -216,6 +218,7 @@ impl Choice {
         call(Asked::InPlace, self.is("system", "inplace"), &[Feature::Condensed, Feature::InPlace]);
         call(Asked::Heat, !self.is("heat", "no"), &[Feature::Heat]);
         call(Asked::HeatTangent, motion, &[Feature::Heat]);
+        call(Asked::Previous, self.is("derivatives", "previous"), &[Feature::Derivatives]);
         call(Asked::SetCommitted, self.is("restart", "committed"), &[Feature::NodeHistory]);
         steps
     }
@@ -236,5 +239,6 @@ pub enum Asked {
     InPlace,
     Heat,
     HeatTangent,
+    Previous,
     SetCommitted,
 }

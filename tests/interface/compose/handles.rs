@@ -13,6 +13,9 @@ use stickslip::law::{Answer, Ellipse, Host, NodeResponse, Own, Question, Thresho
 /// Offsets of up to a thousandth of a facet: both kinds of states remain.
 const OFFSET: f64 = 5e-4;
 
+/// Of the order of the library's: derivatives by positions of t_n hold it, differences would not.
+const AUGMENTATION: f64 = 3e3;
+
 /// A refusal, and when it came.
 pub struct Refused {
     pub asked: Asked,
@@ -208,6 +211,9 @@ where
     let mut contact = when(Asked::Created, Contact::create(one, two, scene.multipliers(), scene.options()))?;
     if let Some(own) = own_law(c) {
         when(Asked::Law, contact.take(own))?;
+    }
+    if c.is("derivatives", "previous") {
+        when(Asked::Created, contact.set_augmentation(Some(vec![AUGMENTATION; n1])))?;
     }
     let offsets = |nodes: &[usize]| nodes.iter().map(|&k| OFFSET * (1.0 + (k as f64).sin())).collect::<Vec<_>>();
     let of = match c.of("offsets") {

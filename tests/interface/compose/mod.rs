@@ -5,6 +5,7 @@ mod check;
 mod choice;
 mod handles;
 mod page;
+mod previous;
 mod scene;
 mod system;
 
