@@ -174,6 +174,7 @@ impl Choice {
             (Feature::Tied, tied),
             (Feature::Points, points),
             (Feature::ElementPoints, !self.is("integration", "segments")),
+            (Feature::FrozenTangent, self.is_current() && self.is("tangent", "frozen_weights")),
             (Feature::FrozenNormals, self.is("tangent", "frozen_normals")),
             (Feature::Carried, half || (dual && !points && self.is("weak", "default"))),
             (Feature::Analytic, self.is_analytic()),
