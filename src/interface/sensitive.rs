@@ -257,6 +257,7 @@ impl<const N: usize> Contact<N> {
             nodes: &setup.nodes,
             components: N,
             slip,
+            start: f64::from(!setup.options.friction.law().opens),
             x,
             sums,
             answers: &answers,

@@ -74,7 +74,8 @@ pub fn through_shares(at: &At, take: &mut Take) -> Result<()> {
         for &Slope { carrier: b, node, by } in slopes {
             let (t, [now, previous]) = (at.transfer(a, b), at.answers[b].by_gap);
             let from = sums.gap_previous - sums.gap_committed * at.slip.unwrap_or(0.0);
-            let row = now * (t * sums.gap_now) + previous * (t * from);
+            let opened = sums.gap_now - sums.gap_committed * at.start;
+            let row = now * (t * opened) + previous * (t * from);
             let own = share * at.answers[b].lambda * (answer.scale / answer.augmentation);
             at.put(b, Column::Previous(node), &(row * by.transpose()), take);
             at.put(a, Column::Previous(node), &(own * by.transpose()), take);

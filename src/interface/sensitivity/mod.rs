@@ -98,6 +98,8 @@ pub struct At<'a> {
     pub components: usize,
     /// Whether anything follows slip, and how much of the gap of t_n is taken off it.
     pub slip: Option<f64>,
+    /// How much of the gap of the start is taken off that of now: of tied surfaces all.
+    pub start: f64,
     /// Positions of both sides.
     pub x: [&'a [Vec3]; 2],
     /// What the nodes assemble.

@@ -2,8 +2,8 @@
 //! follows, and a handle that is told what was committed goes on likewise.
 
 use super::choice::{Asked, Choice};
+use super::dependence::{by_parameters, by_previous_positions};
 use super::handles::{Handles, Refused, TakesLaw, of, when};
-use super::previous::by_previous_positions;
 use super::scene::{At, Scene};
 use super::system::{Direction, System};
 use crate::support::differences::Point;
@@ -143,8 +143,10 @@ where
             found.wrong("after a commit and its rollback the residual has other bits".to_owned());
         }
         when(Asked::Residual, handles.commit(&at))?;
-        if choice.is("derivatives", "previous") {
-            by_previous_positions(&scene, &mut handles, &at, &mut found)?;
+        match choice.of("derivatives") {
+            "previous" => by_previous_positions(&scene, &mut handles, &at, &mut found)?,
+            "parameters" => by_parameters(&scene, &mut handles, &at, &mut found)?,
+            _ => {}
         }
         if choice.is("restart", "committed") {
             restart(&scene, &mut handles, &at, &mut found)?;

@@ -25,7 +25,7 @@ pub const DIMENSIONS: [(&str, &[&str]); 22] = [
     ("new_contact", &["frictionless", "friction"]),
     ("extra", &["no", "constraints", "normals"]),
     ("restart", &["no", "committed"]),
-    ("derivatives", &["no", "previous"]),
+    ("derivatives", &["no", "previous", "parameters"]),
 ];
 
 /// A value of each.
@@ -219,7 +219,7 @@ impl Choice {
         call(Asked::InPlace, self.is("system", "inplace"), &[Feature::Condensed, Feature::InPlace]);
         call(Asked::Heat, !self.is("heat", "no"), &[Feature::Heat]);
         call(Asked::HeatTangent, motion, &[Feature::Heat]);
-        call(Asked::Previous, self.is("derivatives", "previous"), &[Feature::Derivatives]);
+        call(Asked::Derivatives, !self.is("derivatives", "no"), &[Feature::Derivatives]);
         call(Asked::SetCommitted, self.is("restart", "committed"), &[Feature::NodeHistory]);
         steps
     }
@@ -240,6 +240,6 @@ pub enum Asked {
     InPlace,
     Heat,
     HeatTangent,
-    Previous,
+    Derivatives,
     SetCommitted,
 }

@@ -190,7 +190,7 @@ impl Scene {
                 "frozen_normals" => Tangent::FrozenNormals,
                 _ => Tangent::Exact,
             },
-            // Derivatives by positions of t_n hold the scale of rows, and want exact weights.
+            // Derivatives by what is no unknown hold the scale of rows, and want exact weights.
             row_scale: if c.is("derivatives", "no") { of.row_scale } else { RowScale::None },
             rule: if c.is("derivatives", "no") { of.rule } else { &DEGREE_10 },
             new_contact: if c.is("new_contact", "friction") { NewContact::KeepFriction } else { of.new_contact },
