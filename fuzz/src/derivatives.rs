@@ -37,17 +37,8 @@ pub(super) fn derivatives(scene: &Scene, bytes: &mut Bytes) {
     let [previous1, previous2, now1, now2, friction, shear_limit, offsets1, offsets2]: [*mut f64; 8] =
         std::array::from_fn(|k| if wanted[k] { slopes[k].pointer() } else { std::ptr::null_mut() });
     let struct_size = size_of::<stickslip_gradient>() as u64;
-    let to = stickslip_gradient {
-        struct_size,
-        previous1,
-        previous2,
-        now1,
-        now2,
-        friction,
-        shear_limit,
-        offsets1,
-        offsets2,
-    };
+    let to =
+        stickslip_gradient { struct_size, previous1, previous2, now1, now2, friction, shear_limit, offsets1, offsets2 };
     let [a1, a2, a_rows] = a.each_ref().map(|a| a.as_ptr());
     let works = succeeded(unsafe { stickslip_interface_adjoint(h, x1, x2, lambda, a1, a2, a_rows, &to) });
     for (slopes, wanted) in slopes.iter().zip(wanted) {
