@@ -334,11 +334,12 @@
 #define STICKSLIP_TANGENT_EXACT 0
 
 /// Weights of now, but constants in the tangent: fewer entries, no derivatives; Newton's method converges linearly.
+/// Not with (UNSUPPORTED): derivatives by positions of t_n and by parameters.
 #define STICKSLIP_TANGENT_FROZEN_WEIGHTS 1
 
 /// The tangent leaves out that facets' planes tilt: converges linearly too, and saves nothing; for comparisons with
 /// codes that do so. Exact against an analytic mortar side.
-/// Not with (UNSUPPORTED): lines.
+/// Not with (UNSUPPORTED): lines; derivatives by positions of t_n and by parameters.
 #define STICKSLIP_TANGENT_FROZEN_NORMALS 2
 
 /// A node is closed or open. Default.

@@ -105,10 +105,11 @@ pub const STICKSLIP_INTEGRATION_HYBRID: i32 = 2;
 /// The tangent is exact. Default.
 pub const STICKSLIP_TANGENT_EXACT: i32 = 0;
 /// Weights of now, but constants in the tangent: fewer entries, no derivatives; Newton's method converges linearly.
+/// Not with (UNSUPPORTED): derivatives by positions of t_n and by parameters.
 pub const STICKSLIP_TANGENT_FROZEN_WEIGHTS: i32 = 1;
 /// The tangent leaves out that facets' planes tilt: converges linearly too, and saves nothing; for comparisons with
 /// codes that do so. Exact against an analytic mortar side.
-/// Not with (UNSUPPORTED): lines.
+/// Not with (UNSUPPORTED): lines; derivatives by positions of t_n and by parameters.
 pub const STICKSLIP_TANGENT_FROZEN_NORMALS: i32 = 2;
 /// A node is closed or open. Default.
 pub const STICKSLIP_DECISION_NODES: i32 = 0;

@@ -241,6 +241,13 @@ static void check_refusals(void) {
   CHECK_UNTOUCHED(g);
   scene_destroy(&s);
 
+  /* Of such a tangent all derivatives of weights are missing. They were given without a word, 100 % off. */
+  set_up(&kinds[0], 0, at);
+  s.method.tangent = STICKSLIP_TANGENT_FROZEN_WEIGHTS;
+  create(at);
+  CHECK_REFUSED(matrix(&t, MOST_ENTRIES), STICKSLIP_UNSUPPORTED, "STICKSLIP_TANGENT_FROZEN_WEIGHTS");
+  scene_destroy(&s);
+
   set_up(&kinds[0], 0, at);
   s.options.mortar_side = STICKSLIP_MORTAR_RIGID;
   for (int k = 0; k < X2; ++k) s.equations2[k] = -1;

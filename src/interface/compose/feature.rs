@@ -55,6 +55,7 @@ features! {
     Orthotropic "orthotropic friction" "give one mu";
     Points "points that decide (STICKSLIP_DECISION_POINTS)" "take STICKSLIP_DECISION_NODES";
     ElementPoints "points that stand for overlaps (method.element_points)" "take STICKSLIP_INTEGRATION_SEGMENTS";
+    FrozenTangent "the tangent with frozen weights (STICKSLIP_TANGENT_FROZEN_WEIGHTS)" "take the exact tangent";
     FrozenNormals "the tangent with frozen normals (STICKSLIP_TANGENT_FROZEN_NORMALS)" "take the exact tangent";
     Carried "nodes that others carry (weak_coverage > 0, the default of dual multipliers)" "give STICKSLIP_WEAK_COVERAGE_NONE";
     Analytic "an analytic mortar side" "mesh its surface";

@@ -131,6 +131,8 @@ rows! {
     Meaningless [Sums Carried] "weakly covered nodes are carried within one handle only" [Carried];
     Meaningless [SumsTangent Augmented] "it couples pairs of different handles" [Augmented];
     NotBuilt [Heat Points] "pressures are of points" [Points];
+    Meaningless [Derivatives FrozenTangent] "adjoints solve with the exact tangent" [FrozenTangent];
+    Meaningless [Derivatives FrozenNormals] "adjoints solve with the exact tangent" [FrozenNormals];
     NotBuilt [Derivatives Augmented] "forces follow the positions of t_n, too" [Augmented];
     NotBuilt [Derivatives WeightsCommitted] "forces follow the positions of t_n, too" [WeightsCommitted];
     NotBuilt [Derivatives KeptOverlaps] "what counts as closed follows the positions of t_n" [KeptOverlaps];

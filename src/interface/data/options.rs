@@ -355,6 +355,7 @@ impl Options {
             (Feature::Tied, !law.opens),
             (Feature::Points, self.decides_at_points()),
             (Feature::ElementPoints, self.scheme != Scheme::Segments),
+            (Feature::FrozenTangent, is_now && self.tangent == Tangent::FrozenWeights),
             (Feature::FrozenNormals, self.tangent == Tangent::FrozenNormals),
             (Feature::Carried, self.weak_coverage > 0.0 || self.effective_weak_coverage() > 0.0),
         ])

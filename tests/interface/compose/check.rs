@@ -2,6 +2,7 @@
 //! follows, and a handle that is told what was committed goes on likewise.
 
 use super::choice::{Asked, Choice};
+use super::dependence::{by_parameters, by_previous_positions};
 use super::handles::{Handles, Refused, TakesLaw, of, when};
 use super::scene::{At, Scene};
 use super::system::{Direction, System};
@@ -72,7 +73,7 @@ fn error(found: &[Vec<f64>], expected: &[Vec<f64>]) -> f64 {
 }
 
 /// Compares what `value` does along a direction with its derivative; states that change are kinks. Whether it was compared.
-fn compare<E>(
+pub fn compare<E>(
     found: &mut Found,
     what: &str,
     exact: &[Vec<f64>],
@@ -142,6 +143,11 @@ where
             found.wrong("after a commit and its rollback the residual has other bits".to_owned());
         }
         when(Asked::Residual, handles.commit(&at))?;
+        match choice.of("derivatives") {
+            "previous" => by_previous_positions(&scene, &mut handles, &at, &mut found)?,
+            "parameters" => by_parameters(&scene, &mut handles, &at, &mut found)?,
+            _ => {}
+        }
         if choice.is("restart", "committed") {
             restart(&scene, &mut handles, &at, &mut found)?;
         }

@@ -3,7 +3,7 @@
 use stickslip::interface::compose::{Feature, Features};
 
 /// Each kind of choice with its values, the default first.
-pub const DIMENSIONS: [(&str, &[&str]); 21] = [
+pub const DIMENSIONS: [(&str, &[&str]); 22] = [
     ("facet", &["quad4", "tri3", "tri6", "quad8", "quad9", "mixed", "line2p", "line3p", "line2a", "line3a"]),
     ("basis", &["standard", "dual"]),
     ("space", &["corner", "sub"]),
@@ -25,6 +25,7 @@ pub const DIMENSIONS: [(&str, &[&str]); 21] = [
     ("new_contact", &["frictionless", "friction"]),
     ("extra", &["no", "constraints", "normals"]),
     ("restart", &["no", "committed"]),
+    ("derivatives", &["no", "previous", "parameters"]),
 ];
 
 /// A value of each.
@@ -165,12 +166,14 @@ impl Choice {
             (Feature::NormalsNow, self.is("normals", "current") && !tied),
             (Feature::WeightsNow, self.is_current()),
             (Feature::FrozenWeights, !self.is_current()),
+            (Feature::WeightsCommitted, self.is("weights", "committed") && !tied),
             (Feature::KeptOverlaps, self.is("weights", "persistent") && !tied),
             (Feature::PaperSlip, self.is("slip", "paper")),
             (Feature::Friction, !tied && !self.is("law", "none")),
             (Feature::Tied, tied),
             (Feature::Points, points),
             (Feature::ElementPoints, !self.is("integration", "segments")),
+            (Feature::FrozenTangent, self.is_current() && self.is("tangent", "frozen_weights")),
             (Feature::FrozenNormals, self.is("tangent", "frozen_normals")),
             (Feature::Carried, half || (dual && !points && self.is("weak", "default"))),
             (Feature::Analytic, self.is_analytic()),
@@ -215,6 +218,7 @@ impl Choice {
         call(Asked::InPlace, self.is("system", "inplace"), &[Feature::Condensed, Feature::InPlace]);
         call(Asked::Heat, !self.is("heat", "no"), &[Feature::Heat]);
         call(Asked::HeatTangent, motion, &[Feature::Heat]);
+        call(Asked::Derivatives, !self.is("derivatives", "no"), &[Feature::Derivatives]);
         call(Asked::SetCommitted, self.is("restart", "committed"), &[Feature::NodeHistory]);
         steps
     }
@@ -235,5 +239,6 @@ pub enum Asked {
     InPlace,
     Heat,
     HeatTangent,
+    Derivatives,
     SetCommitted,
 }

@@ -13,6 +13,9 @@ use stickslip::law::{Answer, Ellipse, Host, NodeResponse, Own, Question, Thresho
 /// Offsets of up to a thousandth of a facet: both kinds of states remain.
 const OFFSET: f64 = 5e-4;
 
+/// Of the order of the library's: derivatives hold it, differences would not.
+const AUGMENTATION: f64 = 3e3;
+
 /// A refusal, and when it came.
 pub struct Refused {
     pub asked: Asked,
@@ -50,19 +53,28 @@ fn own_law(choice: &Choice) -> Option<Own> {
     }
 }
 
-/// Interfaces with three multipliers a node take laws of one's own, those with one do not.
+/// Interfaces with three multipliers a node take laws of one's own and coefficients of friction, those with one do not.
 pub trait TakesLaw {
     fn take(&mut self, own: Own) -> Result<()>;
+    fn take_friction(&mut self, mu: Vec<f64>) -> Result<()>;
 }
 
 impl TakesLaw for Contact<3> {
     fn take(&mut self, own: Own) -> Result<()> {
         self.set_law(Some(own))
     }
+
+    fn take_friction(&mut self, mu: Vec<f64>) -> Result<()> {
+        self.set_friction(mu)
+    }
 }
 
 impl TakesLaw for Contact<1> {
     fn take(&mut self, _: Own) -> Result<()> {
+        unreachable!("without friction there is no law")
+    }
+
+    fn take_friction(&mut self, _: Vec<f64>) -> Result<()> {
         unreachable!("without friction there is no law")
     }
 }
@@ -193,6 +205,15 @@ pub fn of(kept: &[usize], x: &[Vec3]) -> Vec<Vec3> {
     kept.iter().map(|&k| x[k]).collect()
 }
 
+/// Offsets of the sides that have some.
+pub fn offsets(choice: &Choice, n1: usize, kept: &[usize]) -> [Option<Vec<f64>>; 2] {
+    let of = |k: usize| OFFSET * (1.0 + (k as f64).sin());
+    [
+        choice.is("offsets", "nonmortar").then(|| (0..n1).map(of).collect()),
+        choice.is("offsets", "mortar").then(|| kept.iter().map(|&k| of(k)).collect()),
+    ]
+}
+
 /// A handle, with all that is set of it.
 fn dressed<const N: usize>(
     scene: &Scene,
@@ -209,13 +230,11 @@ where
     if let Some(own) = own_law(c) {
         when(Asked::Law, contact.take(own))?;
     }
-    let offsets = |nodes: &[usize]| nodes.iter().map(|&k| OFFSET * (1.0 + (k as f64).sin())).collect::<Vec<_>>();
-    let of = match c.of("offsets") {
-        "nonmortar" => Some([Some(offsets(&(0..n1).collect::<Vec<_>>())), None]),
-        "mortar" => Some([None, Some(offsets(kept))]),
-        _ => None,
-    };
-    if let Some(of) = of {
+    if !c.is("derivatives", "no") {
+        when(Asked::Created, contact.set_augmentation(Some(vec![AUGMENTATION; n1])))?;
+    }
+    let of = offsets(c, n1, kept);
+    if of.iter().any(Option::is_some) {
         when(Asked::Offsets, contact.set_offsets(of))?;
     }
     if c.is("extra", "normals") {

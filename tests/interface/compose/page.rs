@@ -11,7 +11,7 @@ const LABEL: &str = "Not with (UNSUPPORTED):";
 const WIDTH: usize = 125;
 
 /// Where the header says what a feature does not go with: file of src/capi, what the comment stands before.
-const PLACES: [(&str, &str, Feature); 19] = [
+const PLACES: [(&str, &str, Feature); 20] = [
     ("method.rs", "pub const STICKSLIP_BASIS_STANDARD:", Feature::StandardBasis),
     ("method.rs", "pub const STICKSLIP_BASIS_DUAL:", Feature::DualBasis),
     ("space.rs", "pub const STICKSLIP_SPACE_SUB:", Feature::AllNodes),
@@ -22,6 +22,7 @@ const PLACES: [(&str, &str, Feature); 19] = [
     ("options.rs", "pub const STICKSLIP_FRICTION_TIED:", Feature::Tied),
     ("method.rs", "pub const STICKSLIP_DECISION_POINTS:", Feature::Points),
     ("method.rs", "pub const STICKSLIP_INTEGRATION_ELEMENTS:", Feature::ElementPoints),
+    ("method.rs", "pub const STICKSLIP_TANGENT_FROZEN_WEIGHTS:", Feature::FrozenTangent),
     ("method.rs", "pub const STICKSLIP_TANGENT_FROZEN_NORMALS:", Feature::FrozenNormals),
     ("options.rs", "pub const STICKSLIP_MORTAR_ANALYTIC:", Feature::Analytic),
     ("law.rs", "pub const STICKSLIP_LAW_ORTHOTROPIC:", Feature::Orthotropic),

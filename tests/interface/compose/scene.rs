@@ -9,12 +9,12 @@ use stickslip::error::Result;
 use stickslip::geometry::{AnalyticShape, Vec3};
 use stickslip::interface::{
     Decision, Form, Friction, MortarSide, MultiplierBasis, NO_EQUATION, NO_WEAK_COVERAGE, NewContact, Normals, Options,
-    Scheme, Stiffness, Surface, Tangent, Weights,
+    RowScale, Scheme, Stiffness, Surface, Tangent, Weights,
 };
 use stickslip::law::SlipMeasure;
 use stickslip::line::Measure;
 use stickslip::mortar::MultiplierSpace;
-use stickslip::quadrature::cell;
+use stickslip::quadrature::{DEGREE_10, cell};
 
 /// Of the bodies below both surfaces.
 const MODULUS: f64 = 1000.0;
@@ -190,6 +190,9 @@ impl Scene {
                 "frozen_normals" => Tangent::FrozenNormals,
                 _ => Tangent::Exact,
             },
+            // Derivatives by what is no unknown hold the scale of rows, and want exact weights.
+            row_scale: if c.is("derivatives", "no") { of.row_scale } else { RowScale::None },
+            rule: if c.is("derivatives", "no") { of.rule } else { &DEGREE_10 },
             new_contact: if c.is("new_contact", "friction") { NewContact::KeepFriction } else { of.new_contact },
             ..of
         }
