@@ -297,7 +297,6 @@ def chosen(verdicts, driver):
 REFUSALS = {
     "friction, weights of now": ({"friction": 0.3, "law": "coulomb", "weights": "current"}, "`weights: committed`"),
     "friction, the paper's slip": ({"friction": 0.3, "law": "coulomb", "slip": "paper"}, "paper's slip"),
-    "another law": ({"friction": 0.3, "law": "tresca", "shear_limit": 1.0}, "not Coulomb's"),
     "tied": ({"law": "tied"}, "tied"),
     "augmented": ({"form": "augmented"}, "augmented"),
     "elements": ({"integration": "elements"}, "overlaps"),

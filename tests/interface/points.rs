@@ -382,7 +382,6 @@ fn what_points_do_not_go_with_is_refused_by_name() {
         let error = options.validate().unwrap_err();
         assert!(error.kind == Kind::Unsupported && error.message.contains(word), "{error}");
     };
-    refused(Options { friction: Friction::Tresca, shear_limit: Some(0.2), ..of }, "not Coulomb's");
     refused(Options { friction: Friction::Tied, ..of }, "tied");
     refused(Options { basis: MultiplierBasis::Standard, ..of }, "BASIS_DUAL");
     refused(Options { weights: Weights::Current, normals: Normals::Current, ..of }, "normals of now");
