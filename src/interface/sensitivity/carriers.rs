@@ -5,9 +5,10 @@
 
 use super::{At, Column, Take};
 use crate::error::Result;
-use crate::geometry::{Mat3, Vec3};
+use crate::geometry::Vec3;
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::weak::{self, Carrier};
+use crate::interface::stages::carried::multiplier_share_of;
 use crate::memory::{self, Store};
 use crate::shape::MAX_CORNERS;
 
@@ -69,8 +70,7 @@ pub fn through_shares(at: &At, take: &mut Take) -> Result<()> {
     let slopes = slopes(at)?;
     for (a, slopes) in slopes.iter().enumerate().filter(|(a, _)| at.is_carried(*a)) {
         let (answer, sums) = (&at.answers[a], &at.sums[a]);
-        // d (row of A) / d lambda_B, times r_A over w_AB.
-        let share = if at.components == 1 { Mat3::identity() } else { at.nodes.free[a] };
+        let share = multiplier_share_of(at.components, &at.nodes.free[a]);
         for &Slope { carrier: b, node, by } in slopes {
             let (t, [now, previous]) = (at.transfer(a, b), at.answers[b].by_gap);
             let from = sums.gap_previous - sums.gap_committed * at.slip.unwrap_or(0.0);
@@ -90,40 +90,38 @@ fn slopes(at: &At) -> Result<Vec<Vec<Slope>>> {
     let (x, n) = (&history.x1, one.len());
     let links = weak::links(one, history)?;
     let levels = levels(at, &links)?;
-    let mut slopes = memory::defaults::<Vec<Slope>>(n)?;
+    // sum_J L_AJ of the nodes whose shares are known.
+    let (mut slopes, mut totals) = (memory::defaults::<Vec<Slope>>(n)?, memory::filled(0.0, n)?);
     // v_JB of a neighbour that A has its shares from.
     let own = |j: usize| [(j, 1.0)];
     let farthest = levels.iter().flatten().copied().max().unwrap_or(0);
     for level in 1..=farthest {
         let is_here = |a: usize| levels[a] == Some(level);
         let counts = |j: usize| levels[j].is_some_and(|of| of < level);
-        let mut found = memory::defaults::<Vec<Slope>>(n)?;
         for a in (0..n).filter(|&a| is_here(a)) {
-            let total: f64 = links[a].iter().filter(|link| counts(link.0)).map(|link| link.1).sum();
+            totals[a] = links[a].iter().filter(|link| counts(link.0)).map(|link| link.1).sum();
+            let mut of_neighbours = Vec::new();
             for &(j, area) in links[a].iter().filter(|link| counts(link.0)) {
-                found[a].store_all(slopes[j].iter().map(|s| Slope { by: s.by * (area / total), ..*s }))?;
+                of_neighbours.store_all(slopes[j].iter().map(|s| Slope { by: s.by * (area / totals[a]), ..*s }))?;
             }
+            slopes[a] = of_neighbours;
         }
         for f in 0..one.facets.len() {
             let nodes = one.rows(f).as_slice();
             let (by, corners) = (of_area(one, f, x), &one.facets[f]);
             for (i, &a) in nodes.iter().enumerate().filter(|(_, a)| is_here(**a)) {
-                let total: f64 = links[a].iter().filter(|link| counts(link.0)).map(|link| link.1).sum();
                 for (l, &j) in nodes.iter().enumerate().filter(|(l, j)| *l != i && counts(**j)) {
                     let Some(factor) = weak::share(one, history, (f, i, l)) else { continue };
                     let shares = if levels[j] == Some(0) { &own(j)[..] } else { at.carriers_of(j) };
                     for &(b, w) in at.carriers_of(a) {
                         let v: f64 = shares.iter().filter(|share| share.0 == b).map(|share| share.1).sum();
                         for (k, by) in by.iter().enumerate().take(corners.len) {
-                            let by = by * (factor * (v - w) / total);
-                            found[a].store(Slope { carrier: b, node: corners.nodes[k], by })?;
+                            let by = by * (factor * (v - w) / totals[a]);
+                            slopes[a].store(Slope { carrier: b, node: corners.nodes[k], by })?;
                         }
                     }
                 }
             }
-        }
-        for (to, found) in slopes.iter_mut().zip(found).filter(|(_, found)| !found.is_empty()) {
-            *to = found;
         }
     }
     Ok(slopes)

@@ -89,7 +89,10 @@ fn by_previous<const N: usize>((at, known): (&At, Known<N>), active: Option<&Act
     carriers::through_shares(at, take)?;
     let Some(active) = active else { return Ok(()) };
     if at.slip.is_some() {
-        let through = &mut |facet: &FacetWeights| weights::through_weights(at, (active, facet), take);
+        let through = &mut |facet: &FacetWeights| {
+            weights::through_weights(at, (active, facet), take);
+            Ok(())
+        };
         each_facet((given, at.normals), (active, known.responses), through)?;
     }
     let keeps = |a: usize| step.now.is_none() || step.pairing.keeps_normal[a];

@@ -2,7 +2,6 @@
 //! increment, through the gap g[n_n, x_n] that it is counted from (docs/formulation.md 18.1).
 
 use super::{At, Column, Take};
-use crate::error::Result;
 use crate::geometry::Mat3;
 use crate::interface::data::active::Active;
 use crate::interface::weights::facet::FacetWeights;
@@ -18,8 +17,8 @@ pub fn through_gaps(at: &At, take: &mut Take) {
 }
 
 /// What rows have of the weights of one facet, of these pairs at t_n.
-pub fn through_weights(at: &At, (active, facet): (&Active, &FacetWeights), take: &mut Take) -> Result<()> {
-    let Some(committed) = at.slip else { return Ok(()) };
+pub fn through_weights(at: &At, (active, facet): (&Active, &FacetWeights), take: &mut Take) {
+    let Some(committed) = at.slip else { return };
     let (n1, [x1, x2], n) = (at.x[0].len(), at.x, facet.nodes.len());
     let now = |node: usize| if node < n1 { x1[node] } else { x2[node - n1] };
     let before = |node: usize| if node < n1 { active.x1[node] } else { active.x2[node - n1] };
@@ -32,7 +31,6 @@ pub fn through_weights(at: &At, (active, facet): (&Active, &FacetWeights), take:
             gap(at, a, column, by, take);
         }
     }
-    Ok(())
 }
 
 /// The derivative of A's gap by one node's position, in the rows where it counts.

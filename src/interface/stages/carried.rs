@@ -47,7 +47,13 @@ pub fn transfer_of(components: usize, free: &Mat3, nu_a: Vec3, nu_b: Vec3) -> Ma
 
 /// d (row of A) / d lambda_B, times r_A.
 pub fn multiplier_share<const N: usize>(given: Given<N>, a: usize) -> SMatrix<f64, N, N> {
-    SMatrix::from_fn(|i, j| if N == 1 { 1.0 } else { given.setup.nodes.free[a][(i, j)] })
+    let share = multiplier_share_of(N, &given.setup.nodes.free[a]);
+    SMatrix::from_fn(|i, j| share[(i, j)])
+}
+
+/// The same by the components of a multiplier and the free directions of A, in the first rows and columns.
+pub fn multiplier_share_of(components: usize, free: &Mat3) -> Mat3 {
+    if components == 1 { Mat3::identity() } else { *free }
 }
 
 /// The sums of each node that carries others, theirs added.
