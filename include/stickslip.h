@@ -613,12 +613,28 @@
 /// Derivatives per side of `stickslip_node_heat`.
 #define STICKSLIP_HEAT_SLOPES 5
 
+/// Of `stickslip_skin_set_pair` in place of mu: the two bodies do not see each other.
+#define STICKSLIP_SKIN_APART -1.0
+
+/// Side of a skin's facet: it can touch nothing in this step.
+#define STICKSLIP_SKIN_NONE 0
+
+/// Side of a skin's facet: it has the multipliers.
+#define STICKSLIP_SKIN_NONMORTAR 1
+
+/// Side of a skin's facet: it is what they act on.
+#define STICKSLIP_SKIN_MORTAR 2
+
 /// A contact interface. Created and destroyed by the library; one thread at a time.
 typedef struct stickslip_interface stickslip_interface;
 
 /// Where the entries of a nodal matrix go that have rows or columns of rigid nodes. Created and destroyed by the library; one thread
 /// at a time.
 typedef struct stickslip_rigid stickslip_rigid;
+
+/// General contact: the skin of all bodies, each of which may touch every other one and itself. Created and destroyed by the
+/// library; one thread at a time.
+typedef struct stickslip_skin stickslip_skin;
 
 /// How an interface is computed: a host needs none of it (`method` of `stickslip_options` is NULL). Every member's 0 is the library's
 /// choice, so that {.struct_size = sizeof(stickslip_method)} is what NULL is.
@@ -1370,6 +1386,43 @@ typedef struct stickslip_direction {
   /// Likewise [L].
   const double *offsets2;
 } stickslip_direction;
+
+/// What `stickslip_skin_facets` tells of each facet; a NULL member is not wanted.
+typedef struct stickslip_skin_sides {
+  /// sizeof(stickslip_skin_sides).
+  uint64_t struct_size;
+  /// n_facets: STICKSLIP_SKIN_NONE, _NONMORTAR, _MORTAR.
+  int32_t *side;
+  /// n_facets: the piece of a non-mortar facet, from 0; -1 of the others.
+  int64_t *piece;
+  /// n_facets: the nearest facet that it may touch, in the index base; -1: none.
+  int64_t *partner;
+  /// n_facets: how far apart the two are at t_n, between their centres along the normals; negative: in each other; 0 without a
+  /// partner [L].
+  double *distance;
+  /// n_facets: the number of its body.
+  int64_t *body;
+} stickslip_skin_sides;
+
+/// What a skin has found and done.
+typedef struct stickslip_skin_summary {
+  /// sizeof(stickslip_skin_summary).
+  uint64_t struct_size;
+  /// Bodies.
+  int64_t bodies;
+  /// Pieces: interfaces of this step.
+  int64_t pieces;
+  /// Pairs of facets that may touch in this step.
+  int64_t pairs;
+  /// Pairs that could not be put on different sides, and are left out. None is known to occur.
+  int64_t contradictions;
+  /// Interfaces made since creation.
+  int64_t made;
+  /// Facets in contact that have exchanged their side since creation.
+  int64_t exchanged;
+  /// Steps that were refused since creation because facets met that were out of reach.
+  int64_t missed;
+} stickslip_skin_summary;
 
 #ifdef __cplusplus
 extern "C" {
@@ -2917,6 +2970,262 @@ int32_t stickslip_interface_sensitivity(struct stickslip_interface *interface,
                                         double *force1,
                                         double *force2,
                                         double *rows);
+
+/// Creates general contact over a skin, whose coordinates are the first configuration and t_0. No pairs and no sides are named: at
+/// each commit the library finds which facets may touch, gives them sides, and makes interfaces of them (docs/general_contact.md).
+///
+/// surface: all outer facets of all bodies, seen from outside; equations as of an interface (-1 where prescribed);
+/// multiplier_equations and owned are NULL. Leave out cuts on planes of symmetry. bodies (n_facets): the number of each facet's
+/// body, whatever numbers; NULL: facets that hang together by nodes are one body, numbered from 0. first_multiplier: the equation
+/// of the first multiplier, in the index base; all others follow it, so many as `stickslip_skin_copies` says.
+/// options: as of an interface; search_distance is how far the skin looks for partners (0: half of a facet, and twice the largest
+/// motion of the last step), mortar_side is DEFORMABLE; with FRICTION_NONE multipliers are vectors all the same. Not TIED.
+/// out, output: the handle.
+///
+/// The skin is cut at edges sharper than 40 degrees: nodes there get a copy for each side, with multipliers of its own.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE
+/// (as `stickslip_interface_create`; multipliers' equations that are those of displacements), MISSING_STIFFNESS, UNSUPPORTED,
+/// UNDEFINED_NORMAL, PROJECTION_NOT_CONVEX.
+/// Cost: O(n log n) and those of the interfaces; allocates.
+/// Owner: the caller, who ends it with `stickslip_skin_destroy`. All arrays may be freed after the call.
+int32_t stickslip_skin_create(const struct stickslip_surface *surface,
+                              const int64_t *bodies,
+                              int64_t first_multiplier,
+                              const struct stickslip_options *options,
+                              struct stickslip_skin **out);
+
+/// Destroys the skin and sets the caller's pointer to NULL. NULL, or a pointer to NULL, is fine.
+///
+/// Errors: NULL_POINTER (misaligned).
+/// Cost: frees memory.
+int32_t stickslip_skin_destroy(struct stickslip_skin **skin);
+
+/// The copies of a skin's nodes, which have the multipliers; they stay for good. Node k is copy k; further ones come behind.
+///
+/// capacity: how many copies there is room for; outputs, both NULL to only count: originals (copies), the node that each is a copy
+/// of; equations (3 copies; of lines 2), its multipliers', -1 where it has none (mid nodes of quadratic facets). Both in the index
+/// base. count: copies; multipliers: how many equations they have, one after the other from first_multiplier.
+///
+/// Errors: NULL_POINTER, BUFFER_TOO_SMALL.
+/// Cost: a copy.
+int32_t stickslip_skin_copies(struct stickslip_skin *skin,
+                              int64_t capacity,
+                              int64_t *originals,
+                              int64_t *equations,
+                              int64_t *count,
+                              int64_t *multipliers);
+
+/// Says what there is between two bodies, or within one (twice the same number), from now on: friction mu >= 0, or
+/// STICKSLIP_SKIN_APART, they do not see each other. The last word of two bodies counts. Not part of the history.
+///
+/// body1, body2: numbers as the host gave them, or found by the library. Pieces are made anew at t_n: make the plan again.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE (mu; no such body), and those of `stickslip_skin_commit`.
+/// Cost: a search, and new interfaces.
+int32_t stickslip_skin_set_pair(struct stickslip_skin *skin,
+                                int64_t body1,
+                                int64_t body2,
+                                double mu);
+
+/// Directions in which displacement is prescribed on both sides of a contact (plane strain, symmetry planes), as
+/// `stickslip_interface_set_constraints`: for every copy of the nodes. Replaces all earlier ones; n = 0 clears.
+///
+/// nodes (n): of the host, in the index base, a node up to twice; directions (3 n; of lines 2 n) [-].
+///
+/// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE, INVALID_VALUE, UNDEFINED_NORMAL.
+/// Cost: O(pieces' nodes times n); allocates.
+int32_t stickslip_skin_set_constraints(struct stickslip_skin *skin,
+                                       int64_t n,
+                                       const int64_t *nodes,
+                                       const double *directions);
+
+/// Writes multipliers to start the first step with: a slight compression where facets touch, as
+/// `stickslip_interface_initial_multipliers`.
+///
+/// lambda (3 copies; of lines 2), output [F/L^2]; from then on it is the host's unknown.
+///
+/// Errors: NULL_POINTER, NOT_FINITE (overflow), INVALID_VALUE (a step is committed).
+/// Cost: O(n); allocates.
+int32_t stickslip_skin_initial_multipliers(struct stickslip_skin *skin, double *lambda);
+
+/// Residual in internal-force sign, as `stickslip_interface_residual`: what to ADD to the host's internal forces.
+///
+/// x (3 nodes): positions [L]; lambda (3 copies) [F/L^2]; of lines 2 in place of 3. Outputs, overwritten: force (3 nodes) [F],
+/// rows (3 copies): the multipliers' rows; of a copy that touches nothing minus its area times lambda.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL; within Newton take a smaller step.
+/// Cost: that of the interfaces. Allocates.
+int32_t stickslip_skin_residual(struct stickslip_skin *skin,
+                                const double *x,
+                                const double *lambda,
+                                double *force,
+                                double *rows);
+
+/// Makes the plan of the tangent: its entries and where they go. Make it again when values are refused with MISSING_ENTRY: where
+/// what may touch has changed at a commit, and where surfaces have slid.
+///
+/// x (3 nodes): positions [L]; pairs: STICKSLIP_PLAN_ACTIVE or STICKSLIP_PLAN_SKIN. count, output: entries. Interfaces that meet
+/// at a node have entries of the same row and column: add them up, as PETSc's MatSetValuesCOO does.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE (pairs), DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL.
+/// Cost: as `stickslip_interface_plan`. Allocates.
+int32_t stickslip_skin_plan(struct stickslip_skin *skin,
+                            const double *x,
+                            int32_t pairs,
+                            int64_t *count);
+
+/// The entries of the plan as pairs of row and column, in the order of the values.
+///
+/// capacity: how many entries rows and columns have room for. Outputs, in the host's equations and index base: rows, columns.
+///
+/// Errors: NULL_POINTER, BUFFER_TOO_SMALL, MISSING_ENTRY (there is no plan of this step).
+/// Cost: O(entries).
+int32_t stickslip_skin_plan_coo(struct stickslip_skin *skin,
+                                int64_t capacity,
+                                int64_t *rows,
+                                int64_t *columns);
+
+/// As `stickslip_skin_plan_coo`, in 32 bits: capacity; outputs rows, columns.
+///
+/// Errors: as there, and INDEX_OUT_OF_RANGE where a number does not fit.
+/// Cost: O(entries).
+int32_t stickslip_skin_plan_coo32(struct stickslip_skin *skin,
+                                  int64_t capacity,
+                                  int32_t *rows,
+                                  int32_t *columns);
+
+/// The exact tangent in the order of the plan's entries.
+///
+/// x, lambda as for `stickslip_skin_residual`; capacity: how many values there is room for. Output: values, overwritten. After
+/// MISSING_ENTRY, OUT_OF_MEMORY and NOT_FINITE they mean nothing.
+///
+/// Errors: those of `stickslip_skin_residual`, BUFFER_TOO_SMALL, MISSING_ENTRY: make the plan again.
+/// Cost: as `stickslip_interface_plan_values`.
+int32_t stickslip_skin_plan_values(struct stickslip_skin *skin,
+                                   const double *x,
+                                   const double *lambda,
+                                   int64_t capacity,
+                                   double *values);
+
+/// State and results of every copy, as `stickslip_interface_states`; 0 of copies that can touch nothing in this step.
+///
+/// x (3 nodes) [L]; lambda (3 copies) [F/L^2]. out: its members point to the caller's arrays, with copies in place of n1.
+///
+/// Errors: as `stickslip_skin_residual`, and STRUCT_SIZE.
+/// Cost: as `stickslip_skin_residual`.
+int32_t stickslip_skin_states(struct stickslip_skin *skin,
+                              const double *x,
+                              const double *lambda,
+                              const struct stickslip_states *out);
+
+/// How far (x, lambda) is from contact equilibrium, as `stickslip_interface_equilibrium`; its nodes are copies.
+///
+/// x (3 nodes) [L]; lambda (3 copies) [F/L^2]. out, input and output: modulus and least_traction are read.
+///
+/// Errors: as `stickslip_skin_residual`, STRUCT_SIZE, INVALID_VALUE (modulus, least_traction).
+/// Cost: as `stickslip_interface_equilibrium`, twice.
+int32_t stickslip_skin_equilibrium(struct stickslip_skin *skin,
+                                   const double *x,
+                                   const double *lambda,
+                                   struct stickslip_equilibrium *out);
+
+/// How much of a step of Newton's method may be taken, as `stickslip_interface_step_limit`.
+///
+/// x (3 nodes), dx (3 nodes) [L]; penetration: above 0 and at most 1 [-]; 0: the default. fraction, output.
+///
+/// Errors: as `stickslip_interface_step_limit`.
+/// Cost: as there.
+int32_t stickslip_skin_step_limit(struct stickslip_skin *skin,
+                                  const double *x,
+                                  const double *dx,
+                                  double penetration,
+                                  double *fraction);
+
+/// Which normals evaluations of a skin use until the next commit, as `stickslip_interface_use_normals`: for the two phases of a
+/// step.
+///
+/// normals: STICKSLIP_NORMALS_COMMITTED or _CURRENT.
+///
+/// Errors: NULL_POINTER, INVALID_VALUE.
+/// Cost: none; the next evaluation begins anew.
+int32_t stickslip_skin_use_normals(struct stickslip_skin *skin,
+                                   int32_t normals);
+
+/// Turns multipliers as the skin turns from t_n to x, as `stickslip_interface_turn_multipliers`.
+///
+/// x (3 nodes) [L]; lambda (3 copies) [F/L^2]: those of t_n, in and out.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, UNDEFINED_NORMAL.
+/// Cost: O(n); allocates.
+int32_t stickslip_skin_turn_multipliers(struct stickslip_skin *skin, const double *x, double *lambda);
+
+/// Accepts a converged step: (x, lambda) becomes t_n. The library looks anew which facets may touch; interfaces that serve no more
+/// are replaced, slips stay with their nodes. Make the plan again where values are refused with MISSING_ENTRY.
+///
+/// x (3 nodes) [L]; lambda (3 copies) [F/L^2], in and out: 0 of copies that can touch nothing any more, minus that of the nearest
+/// node of the other side where facets in contact exchange their sides.
+///
+/// Errors: those of `stickslip_interface_commit`; CONTACT_LOST also where facets have met within the step that were out of reach
+/// at its start. The skin looks for them then: solve the same step again from t_n, with a new plan, or a smaller one. Without
+/// this a body would pass through another one without a word. No commit can be undone after such a refusal; after all others
+/// nothing has moved.
+/// Cost: two searches over the skin, O(n log n); of interfaces that are replaced those of their creation. Allocates.
+int32_t stickslip_skin_commit(struct stickslip_skin *skin,
+                              const double *x,
+                              double *lambda);
+
+/// Undoes the last commit exactly; the host takes its multipliers of then. Only one can be undone. Make the plan again.
+///
+/// Errors: NULL_POINTER, NOTHING_TO_ROLL_BACK.
+/// Cost: O(facets). Allocates.
+int32_t stickslip_skin_rollback(struct stickslip_skin *skin);
+
+/// Lengths of the flat arrays that hold the history now; they change with each commit.
+///
+/// n_integers, n_reals, output.
+///
+/// Errors: NULL_POINTER; those of `stickslip_interface_history_size`.
+/// Cost: that of the export.
+int32_t stickslip_skin_history_size(struct stickslip_skin *skin, int64_t *n_integers, int64_t *n_reals);
+
+/// Writes the history to integers (n_integers) and reals (n_reals), for a restart file. The multipliers are the host's, and what
+/// `stickslip_skin_set_pair` and `stickslip_skin_set_constraints` said: say it again before the import.
+///
+/// Errors: NULL_POINTER, BUFFER_TOO_SMALL, and those of `stickslip_skin_history_size`.
+/// Cost: a copy; allocates it.
+int32_t stickslip_skin_history_export(struct stickslip_skin *skin,
+                                      int64_t n_integers,
+                                      int64_t *integers,
+                                      int64_t n_reals,
+                                      double *reals);
+
+/// Replaces the history by an exported one of the same skin, integers (n_integers) and reals (n_reals); evaluation continues bit
+/// for bit. Make the plan again. No commit can then be undone.
+///
+/// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, HISTORY_MISMATCH.
+/// Cost: that of the interfaces' creation. Allocates.
+int32_t stickslip_skin_history_import(struct stickslip_skin *skin,
+                                      int64_t n_integers,
+                                      const int64_t *integers,
+                                      int64_t n_reals,
+                                      const double *reals);
+
+/// Who may touch whom in this step, facet by facet: for pictures, and to see what the library has chosen.
+///
+/// out: its members point to the caller's arrays, which are filled.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE.
+/// Cost: O(facets + pairs); allocates.
+int32_t stickslip_skin_facets(struct stickslip_skin *skin, const struct stickslip_skin_sides *out);
+
+/// What a skin has found in this step, and done since its creation.
+///
+/// out, output.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE.
+/// Cost: none.
+int32_t stickslip_skin_report(struct stickslip_skin *skin, struct stickslip_skin_summary *out);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -46,6 +46,52 @@ pub fn shared_edges<'a>(n_facets: usize, nodes: impl Fn(usize) -> &'a [usize]) -
     Ok(shared)
 }
 
+/// Lists, one after the other: one vector for all of them.
+#[derive(Debug)]
+pub struct Lists<T> {
+    /// All items.
+    pub items: Vec<T>,
+    /// Where each list ends, after a 0.
+    ends: Vec<usize>,
+}
+
+impl<T> Lists<T> {
+    /// No lists, with room for so many.
+    pub fn with_room(lists: usize) -> Result<Lists<T>> {
+        let mut ends = memory::with_room(lists + 1)?;
+        ends.store(0)?;
+        Ok(Lists { items: Vec::new(), ends })
+    }
+
+    /// The list that items were added to is complete.
+    pub fn end(&mut self) -> Result<()> {
+        self.ends.store(self.items.len())
+    }
+
+    /// One of them.
+    pub fn of(&self, k: usize) -> &[T] {
+        &self.items[self.ends[k]..self.ends[k + 1]]
+    }
+}
+
+impl Lists<usize> {
+    /// Per node the facets around it, in their order; `nodes` gives those of a facet.
+    pub fn around<'a>(n_nodes: usize, n_facets: usize, nodes: impl Fn(usize) -> &'a [usize]) -> Result<Lists<usize>> {
+        let mut ends = memory::filled(0, n_nodes + 1)?;
+        let pairs = || (0..n_facets).flat_map(|f| nodes(f).iter().map(move |&a| (f, a)));
+        pairs().for_each(|(_, a)| ends[a + 1] += 1);
+        for a in 0..n_nodes {
+            ends[a + 1] += ends[a];
+        }
+        let (mut next, mut items) = (memory::copied(&ends)?, memory::filled(0, ends[n_nodes])?);
+        for (f, a) in pairs() {
+            items[next[a]] = f;
+            next[a] += 1;
+        }
+        Ok(Lists { items, ends })
+    }
+}
+
 /// The item that stands for the group of `item`, where `parent` gives each item another one of its group, or itself where
 /// it stands for it. The way to it is halved.
 pub fn root(parent: &mut [usize], mut item: usize) -> usize {

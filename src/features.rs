@@ -35,6 +35,8 @@ pub const QUADRATIC: Feature = Feature { name: "quadratic", built: cfg!(feature 
 pub const RIGID: Feature = Feature { name: "rigid", built: cfg!(feature = "rigid") };
 /// Derivatives by positions of t_n and by parameters.
 pub const SENSITIVITY: Feature = Feature { name: "sensitivity", built: cfg!(feature = "sensitivity") };
+/// General contact.
+pub const SKIN: Feature = Feature { name: "skin", built: cfg!(feature = "skin") };
 /// Facets of the host that have parts: quadratic ones and lines.
 pub const PARTS: Feature = Feature { name: "quadratic or lines", built: QUADRATIC.built || LINES.built };
 

@@ -81,4 +81,5 @@ pub mod quadrature;
 pub mod rigid;
 pub mod shape;
 pub mod simd;
+pub mod skin;
 mod threads;

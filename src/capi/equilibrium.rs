@@ -7,7 +7,7 @@ use super::point::Point;
 use super::raw;
 use super::sized::{self, Sized64};
 use crate::error::{Error, Kind, Result};
-use crate::interface::{Largest, Scales};
+use crate::interface::{Equilibrium, Largest, Scales};
 use crate::law::Measure;
 
 /// What `stickslip_interface_equilibrium` finds: three violations, each of the node where it is largest over its scale.
@@ -139,51 +139,61 @@ pub unsafe extern "C" fn stickslip_interface_equilibrium(
     guard(|| {
         let h = handle(interface)?;
         let point = Point::read(&h.inner, x1, x2, lambda, sums)?;
-        sized::check_output(out)?;
-        let given = sized::read(out)?;
-        let scales = Scales {
-            modulus: not_negative(given.modulus, "stickslip_equilibrium.modulus")?,
-            traction: not_negative(given.least_traction, "stickslip_equilibrium.least_traction")?,
-        };
+        let (given, scales) = read_scales(out)?;
         let found =
             either!(&mut h.inner, c => c.equilibrium(point.x1(), point.x2(), point.lambda(), point.sums(), &scales)?);
-        let node = |largest: &Largest| largest.node.map_or(-1, |a| a as i64 + h.base);
-        let (gap, traction, slip, slide, turn) = (found.gap, found.traction, found.slip, found.slide, found.turn);
-        let (lag, penetration, apart) = (found.lag, found.penetration, found.apart);
-        let numbers = [gap, traction, slip, slide, turn, lag, penetration, apart].map(|l| [l.value, l.scale]);
-        raw::check_results("equilibrium", numbers.as_flattened())?;
-        raw::check_results("equilibrium", &found.lag_force)?;
-        sized::write(
-            out,
-            stickslip_equilibrium {
-                gap: gap.value,
-                gap_scale: gap.scale,
-                traction: traction.value,
-                traction_scale: traction.scale,
-                slip: slip.value,
-                slip_scale: slip.scale,
-                gap_node: node(&gap),
-                traction_node: node(&traction),
-                slip_node: node(&slip),
-                slide: slide.value,
-                slide_scale: slide.scale,
-                slide_node: node(&slide),
-                turn: turn.value,
-                turn_node: node(&turn),
-                lag: lag.value,
-                lag_node: node(&lag),
-                lag_force: found.lag_force[0],
-                lag_force_scale: found.lag_force[1],
-                penetration: penetration.value,
-                penetration_scale: penetration.scale,
-                penetration_node: node(&penetration),
-                apart: apart.value,
-                apart_scale: apart.scale,
-                apart_node: node(&apart),
-                ..given
-            },
-        );
+        sized::write(out, equilibrium_of(given, &found, h.base)?);
         Ok(())
+    })
+}
+
+/// What a caller says of its problem.
+pub(super) fn read_scales(out: *mut stickslip_equilibrium) -> Result<(stickslip_equilibrium, Scales)> {
+    sized::check_output(out)?;
+    let given = sized::read(out)?;
+    let modulus = not_negative(given.modulus, "stickslip_equilibrium.modulus")?;
+    let traction = not_negative(given.least_traction, "stickslip_equilibrium.least_traction")?;
+    Ok((given, Scales { modulus, traction }))
+}
+
+/// What was found, beside what the caller gave.
+pub(super) fn equilibrium_of(
+    given: stickslip_equilibrium,
+    found: &Equilibrium,
+    base: i64,
+) -> Result<stickslip_equilibrium> {
+    let node = |largest: &Largest| largest.node.map_or(-1, |a| a as i64 + base);
+    let (gap, traction, slip, slide, turn) = (found.gap, found.traction, found.slip, found.slide, found.turn);
+    let (lag, penetration, apart) = (found.lag, found.penetration, found.apart);
+    let numbers = [gap, traction, slip, slide, turn, lag, penetration, apart].map(|l| [l.value, l.scale]);
+    raw::check_results("equilibrium", numbers.as_flattened())?;
+    raw::check_results("equilibrium", &found.lag_force)?;
+    Ok(stickslip_equilibrium {
+        gap: gap.value,
+        gap_scale: gap.scale,
+        traction: traction.value,
+        traction_scale: traction.scale,
+        slip: slip.value,
+        slip_scale: slip.scale,
+        gap_node: node(&gap),
+        traction_node: node(&traction),
+        slip_node: node(&slip),
+        slide: slide.value,
+        slide_scale: slide.scale,
+        slide_node: node(&slide),
+        turn: turn.value,
+        turn_node: node(&turn),
+        lag: lag.value,
+        lag_node: node(&lag),
+        lag_force: found.lag_force[0],
+        lag_force_scale: found.lag_force[1],
+        penetration: penetration.value,
+        penetration_scale: penetration.scale,
+        penetration_node: node(&penetration),
+        apart: apart.value,
+        apart_scale: apart.scale,
+        apart_node: node(&apart),
+        ..given
     })
 }
 

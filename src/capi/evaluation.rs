@@ -113,22 +113,28 @@ pub unsafe extern "C" fn stickslip_interface_states(
         let h = &mut handle(interface)?.inner;
         let point = Point::read(h, x1, x2, lambda, sums)?;
         let out = sized::read(out)?;
-        raw::check_optional(out.state, "stickslip_states.state")?;
-        for (p, name) in [
-            (out.normal, "stickslip_states.normal"),
-            (out.traction, "stickslip_states.traction"),
-            (out.gap, "stickslip_states.gap"),
-            (out.slip, "stickslip_states.slip"),
-            (out.coverage, "stickslip_states.coverage"),
-            (out.area, "stickslip_states.area"),
-            (out.dissipation, "stickslip_states.dissipation"),
-            (out.augmentation, "stickslip_states.augmentation"),
-            (out.share, "stickslip_states.share"),
-        ] {
-            raw::check_optional(p, name)?;
-        }
+        check_states(&out)?;
         either!(h, c => write_states(c, &point, &out))
     })
+}
+
+/// Checks where states are to be written.
+pub(super) fn check_states(out: &stickslip_states) -> Result<()> {
+    raw::check_optional(out.state, "stickslip_states.state")?;
+    for (p, name) in [
+        (out.normal, "stickslip_states.normal"),
+        (out.traction, "stickslip_states.traction"),
+        (out.gap, "stickslip_states.gap"),
+        (out.slip, "stickslip_states.slip"),
+        (out.coverage, "stickslip_states.coverage"),
+        (out.area, "stickslip_states.area"),
+        (out.dissipation, "stickslip_states.dissipation"),
+        (out.augmentation, "stickslip_states.augmentation"),
+        (out.share, "stickslip_states.share"),
+    ] {
+        raw::check_optional(p, name)?;
+    }
+    Ok(())
 }
 
 fn write_states<const N: usize>(c: &mut Contact<N>, point: &Point, out: &stickslip_states) -> Result<()> {

@@ -44,7 +44,7 @@ pub unsafe extern "C" fn stickslip_interface_create(
         raw::check(out, "out")?;
         let choices = read_options(options)?;
         let (one, two) = (sized::read(nonmortar)?, sized::read(mortar)?);
-        refuse_multipliers(&two)?;
+        refuse_multipliers(&two, "mortar")?;
         let owners = read_owners(&one)?;
         let base = choices.base;
         let mut inner = create_inner(&one, &two, choices)?;

@@ -92,6 +92,10 @@ mod heat;
 
 mod sensitivity;
 
+mod skin;
+
+mod skin_steps;
+
 mod choice;
 mod fp_environment;
 mod guard;
@@ -131,6 +135,8 @@ pub use preparation::*;
 pub use report::*;
 pub use rigid::*;
 pub use sensitivity::*;
+pub use skin::*;
+pub use skin_steps::*;
 pub use space::*;
 pub use status::*;
 pub use surface::*;

@@ -44,7 +44,7 @@ impl Index for i32 {
     }
 }
 
-fn index<I: Index>(value: i64) -> Result<I> {
+pub(super) fn index<I: Index>(value: i64) -> Result<I> {
     let refused = || {
         let text = text!("{value} does not fit into 32 bits; take the function for 64");
         Error::new(Kind::IndexOutOfRange, text)

@@ -72,7 +72,7 @@ unsafe impl Sized64 for stickslip_surface {
 }
 
 /// Equations per node, 0-based: the first `per` of N, which the caller has.
-fn equations<const N: usize>(
+pub(super) fn read_equations<const N: usize>(
     p: *const i64,
     n: usize,
     (base, per): (i64, usize),
@@ -103,7 +103,7 @@ pub(super) fn read_surface(
 ) -> Result<Surface> {
     let (x, facets) = read_facets(s, base, side, measure.is_some())?;
     let per = if measure.is_some() { 2 } else { 3 };
-    let equations = equations(s.equations, x.len(), (base, per), Member(side, "equations"))?;
+    let equations = read_equations(s.equations, x.len(), (base, per), Member(side, "equations"))?;
     match measure {
         None => Surface::new(side, x, &facets, equations),
         Some(measure) => Surface::of_lines(side, x, &facets, equations, measure),
@@ -169,7 +169,7 @@ pub(super) fn read_analytic(s: &stickslip_surface, shape: AnalyticShape, base: i
     let coordinates = raw::numbers(s.coordinates, dimension * points, "mortar.coordinates")?;
     let mut surface = Surface::analytic("mortar", shape, coordinates.chunks_exact(dimension).map(position).stored()?)?;
     if !s.equations.is_null() {
-        surface.equations = equations::<3>(s.equations, points, (base, dimension), "mortar.equations")?;
+        surface.equations = read_equations::<3>(s.equations, points, (base, dimension), "mortar.equations")?;
     }
     Ok(surface)
 }
@@ -179,13 +179,13 @@ fn position(x: &[f64]) -> Vec3 {
     Vec3::new(x[0], x[1], x.get(2).copied().unwrap_or(0.0))
 }
 
-/// Refuses multipliers on the mortar side: the two surfaces may have been swapped.
-pub(super) fn refuse_multipliers(mortar: &stickslip_surface) -> Result<()> {
+/// Refuses multipliers on the mortar side, for the two surfaces may have been swapped, and of a skin, which numbers them itself.
+pub(super) fn refuse_multipliers(surface: &stickslip_surface, side: &str) -> Result<()> {
     for (given, member) in
-        [(!mortar.multiplier_equations.is_null(), "multiplier_equations"), (!mortar.owned.is_null(), "owned")]
+        [(!surface.multiplier_equations.is_null(), "multiplier_equations"), (!surface.owned.is_null(), "owned")]
     {
         if given {
-            let text = text!("mortar.{member} must be NULL: only the non-mortar side has multipliers");
+            let text = text!("{side}.{member} must be NULL: the non-mortar side of an interface alone has multipliers of the host's");
             return Err(Error::new(Kind::InvalidValue, text));
         }
     }
@@ -195,7 +195,7 @@ pub(super) fn refuse_multipliers(mortar: &stickslip_surface) -> Result<()> {
 /// The non-mortar side's multiplier equations, of which the caller has `per` a node.
 pub(super) fn read_multipliers<const N: usize>(s: &stickslip_surface, base: i64, per: usize) -> Result<Vec<[i64; N]>> {
     let n = raw::count(s.n_nodes, 2, "nonmortar.n_nodes")?;
-    equations(s.multiplier_equations, n, (base, per), "nonmortar.multiplier_equations")
+    read_equations(s.multiplier_equations, n, (base, per), "nonmortar.multiplier_equations")
 }
 
 /// Where the multipliers of the non-mortar nodes act; `None`: here.

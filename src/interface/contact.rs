@@ -126,8 +126,8 @@ fn unslipped<const N: usize>(setup: &Setup<N>, step: &mut Step) -> Result<Points
 /// Data, and what a host sets.
 impl<const N: usize> Contact<N> {
     fn build(mut setup: Setup<N>) -> Result<Contact<N>> {
-        setup.nonmortar.backs = backs(&setup.nonmortar)?;
-        setup.mortar.backs = backs(&setup.mortar)?;
+        setup.nonmortar.backs = backs(&setup.nonmortar, &|_, _| true)?;
+        setup.mortar.backs = backs(&setup.mortar, &|_, _| true)?;
         let mut cache = Cache::default();
         let at = (&setup.nonmortar.reference[..], &setup.mortar.reference[..]);
         let (_, active, work, _) = cache.leave();

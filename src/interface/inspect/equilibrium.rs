@@ -71,6 +71,25 @@ pub struct Equilibrium {
     pub apart: Largest,
 }
 
+impl Equilibrium {
+    /// Takes what is worse of another interface; `node`: the number that its nodes have here. Sums add up.
+    pub fn take_worse(&mut self, other: &Equilibrium, node: &dyn Fn(usize) -> usize) {
+        for (own, of_other) in [
+            (&mut self.gap, &other.gap),
+            (&mut self.traction, &other.traction),
+            (&mut self.slip, &other.slip),
+            (&mut self.slide, &other.slide),
+            (&mut self.turn, &other.turn),
+            (&mut self.lag, &other.lag),
+            (&mut self.penetration, &other.penetration),
+            (&mut self.apart, &other.apart),
+        ] {
+            own.take_worse(of_other, node);
+        }
+        self.lag_force.iter_mut().zip(other.lag_force).for_each(|(own, of_other)| *own += of_other);
+    }
+}
+
 /// The distance of (x, lambda) from equilibrium. Nodes without any multiplier equation, and those whose
 /// multiplier acts elsewhere, have no part in it.
 pub fn equilibrium<const N: usize>(

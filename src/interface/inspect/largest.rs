@@ -28,4 +28,13 @@ impl Largest {
             *self = Largest { value, scale, node: Some(node) };
         }
     }
+
+    /// Takes that of another part where it is worse; `node`: the number that its nodes have here.
+    pub fn take_worse(&mut self, other: &Largest, node: &dyn Fn(usize) -> usize) {
+        match other.node {
+            Some(of_other) => self.offer(other.value, other.scale, node(of_other)),
+            None if self.node.is_none() => self.scale = if self.scale > 0.0 { self.scale.min(other.scale) } else { other.scale },
+            None => (),
+        }
+    }
 }

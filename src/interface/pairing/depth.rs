@@ -13,7 +13,7 @@ use super::ends::MARGIN;
 use super::filter::FacetFilter;
 use super::prism::{Prism, Slab};
 use super::search::Tree;
-use crate::adjacency::root;
+use crate::adjacency::{Lists, root};
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::surface::Surface;
@@ -31,7 +31,7 @@ struct Over {
 /// over the facets around those that are `reached`, and linear in the pairs found.
 pub fn followed(surfaces: (&Surface, &Surface), filter: &FacetFilter, tree: &Tree, x2: &[Vec3]) -> Result<Vec<f64>> {
     let (one, two) = surfaces;
-    let around = facets_around(one)?;
+    let around = Lists::around(one.len(), one.facets.len(), |f| one.facets[f].as_slice())?;
     let nodes = |f: usize| one.facets[f].as_slice().iter();
     let mut near = memory::filled(false, one.facets.len())?;
     for i in (0..near.len()).filter(|&i| filter.reached[i]) {
@@ -77,47 +77,6 @@ fn add_over(i: usize, filter: &FacetFilter, tree: &Tree, found: &mut Vec<usize>,
         (depth <= most).then_some(Over { two: j, deep: (depth > own).then_some(depth) })
     };
     over.store_all(found.iter().filter_map(pair))
-}
-
-/// Lists, one after the other: one vector for all of them.
-struct Lists<T> {
-    items: Vec<T>,
-    /// Where each list ends, after a 0.
-    ends: Vec<usize>,
-}
-
-impl<T> Lists<T> {
-    fn with_room(lists: usize) -> Result<Lists<T>> {
-        let mut ends = memory::with_room(lists + 1)?;
-        ends.store(0)?;
-        Ok(Lists { items: Vec::new(), ends })
-    }
-
-    /// The list that items were added to is complete.
-    fn end(&mut self) -> Result<()> {
-        self.ends.store(self.items.len())
-    }
-
-    fn of(&self, k: usize) -> &[T] {
-        &self.items[self.ends[k]..self.ends[k + 1]]
-    }
-}
-
-/// Per node the facets around it, in their order.
-fn facets_around(surface: &Surface) -> Result<Lists<usize>> {
-    let mut ends = memory::filled(0, surface.len() + 1)?;
-    let nodes =
-        || surface.facets.iter().enumerate().flat_map(|(f, facet)| facet.as_slice().iter().map(move |&a| (f, a)));
-    nodes().for_each(|(_, a)| ends[a + 1] += 1);
-    for a in 0..surface.len() {
-        ends[a + 1] += ends[a];
-    }
-    let (mut next, mut items) = (memory::copied(&ends)?, memory::filled(0, ends[surface.len()])?);
-    for (f, a) in nodes() {
-        items[next[a]] = f;
-        next[a] += 1;
-    }
-    Ok(Lists { items, ends })
 }
 
 /// Per node a number that nodes at the same place share: a mesh whose facets have nodes of their own hangs together too.

@@ -17,8 +17,9 @@ use crate::memory::{self, Stored};
 const OPPOSED: f64 = 0.7;
 
 /// Per facet the nearest one of the surface that lies behind it and looks the other way, or `NO_FACET`; empty where the surface
-/// has no such facets. A search over the surface unless all of it looks one way.
-pub fn backs(surface: &Surface) -> Result<Vec<u32>> {
+/// has no such facets. `are_one`: whether two facets are of one body, where that is known. A search over the surface unless all
+/// of it looks one way.
+pub fn backs(surface: &Surface, are_one: &dyn Fn(usize, usize) -> bool) -> Result<Vec<u32>> {
     let x = &surface.reference;
     if surface.analytic.is_some() {
         return Ok(Vec::new());
@@ -40,7 +41,7 @@ pub fn backs(surface: &Surface) -> Result<Vec<u32>> {
         tree.find(&prism, &mut found)?;
         prism.keep_near(surface, x, &mut found);
         let least = TOUCHES * facet(f).longest_edge();
-        let opposed = found.iter().filter(|&&g| normals[g].dot(&plane.e) < -OPPOSED);
+        let opposed = found.iter().filter(|&&g| normals[g].dot(&plane.e) < -OPPOSED && are_one(f, g));
         let thick = opposed.map(|&g| (thickness(plane, &planes[g]), g)).filter(|(thickness, _)| *thickness > least);
         if let Some((_, g)) = thick.min_by(|a, b| a.0.total_cmp(&b.0)) {
             backs[f] = g as u32;

@@ -1,0 +1,66 @@
+//! What there is between two bodies: friction of its own, or no contact at all.
+
+use crate::error::{Error, Kind, Result};
+use crate::memory::Store;
+
+/// What there is between two bodies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Between {
+    /// Contact with this coefficient of friction.
+    Friction(f64),
+    /// They do not see each other.
+    Nothing,
+}
+
+/// Pairs of bodies that are not as the rest.
+#[derive(Debug, Default)]
+pub struct Table {
+    rows: Vec<([usize; 2], Between)>,
+}
+
+impl Table {
+    /// Says what there is between two bodies, or within one; the last word counts.
+    pub fn set(&mut self, bodies: [usize; 2], between: Between) -> Result<()> {
+        if let Between::Friction(mu) = between
+            && !(mu >= 0.0 && mu.is_finite())
+        {
+            return Err(Error::new(Kind::InvalidValue, text!("mu is {mu}; it must be finite and not negative")));
+        }
+        let key = sorted(bodies);
+        match self.rows.iter_mut().find(|row| row.0 == key) {
+            Some(row) => row.1 = between,
+            None => self.rows.store((key, between))?,
+        }
+        Ok(())
+    }
+
+    /// What was said of two bodies.
+    pub fn between(&self, bodies: [usize; 2]) -> Option<Between> {
+        let key = sorted(bodies);
+        self.rows.iter().find(|row| row.0 == key).map(|row| row.1)
+    }
+
+    /// Whether they do not see each other.
+    pub fn excludes(&self, bodies: [usize; 2]) -> bool {
+        self.between(bodies) == Some(Between::Nothing)
+    }
+}
+
+fn sorted([a, b]: [usize; 2]) -> [usize; 2] {
+    [a.min(b), a.max(b)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_order_of_two_bodies_is_of_no_account_and_the_last_word_counts() {
+        let mut table = Table::default();
+        table.set([2, 1], Between::Nothing).unwrap();
+        assert!(table.excludes([1, 2]) && table.excludes([2, 1]) && !table.excludes([1, 1]));
+        table.set([1, 2], Between::Friction(0.5)).unwrap();
+        assert_eq!((table.between([2, 1]), table.between([0, 1])), (Some(Between::Friction(0.5)), None));
+        assert!(table.set([0, 0], Between::Friction(-1.0)).unwrap_err().message.contains("mu is -1"));
+    }
+}
