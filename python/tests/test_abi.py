@@ -25,6 +25,7 @@ NOT_WRAPPED = {
     "interface_plan_coo": "interface_plan_csr has the same",
     "interface_plan_coo32": "interface_plan_csr has the same",
     "interface_plan_csr32": "interface_plan_csr has the same",
+    "skin_plan_coo32": "skin_plan_coo has the same",
     "interface_condensed_csr": "pieces of the condensed matrix and scipy's products",
     "interface_condensed_pattern": "scipy finds the pattern",
 }

@@ -11,12 +11,13 @@ from ._library import constants, lib, text
 from .condensed import Condensed
 from .contact import Contact
 from .errors import Error, StepRefused, StepWarning
+from .general import Skin
 from .interface import Interface
 from .meshes import crosspoints, split_creases
 from .newton import newton
 from .options import Options
-from .plan import CondensedPlan, Plan
-from .results import Counters, Crosspoints, Diagnosis, Equilibrium, Gradient, Report, State, States
+from .plan import CondensedPlan, Plan, SkinPlan
+from .results import Counters, Crosspoints, Diagnosis, Equilibrium, Gradient, Report, SkinFacets, SkinReport, State, States
 from .rigid import RigidBody, RigidPlan
 from .skin import skin
 from .steps import Step, steps
@@ -28,7 +29,8 @@ __version__ = text(lib.stickslip_version())
 __build__ = text(lib.stickslip_build())
 
 __all__ = ["Condensed", "CondensedPlan", "Contact", "Counters", "Crosspoints", "Diagnosis", "Equilibrium", "Error", "Gradient", "Heat", "Interface",
-           "LawPoint", "Options", "Plan", "Report", "RigidBody", "RigidPlan", "State", "States", "Step", "StepRefused", "StepWarning", "Surface",
+           "LawPoint", "Options", "Plan", "Report", "RigidBody", "RigidPlan", "Skin", "SkinFacets", "SkinPlan",
+           "SkinReport", "State", "States", "Step", "StepRefused", "StepWarning", "Surface",
            "constants", "crosspoints", "errors", "gradients", "header", "newton", "skin", "split_creases", "steps"]
 
 

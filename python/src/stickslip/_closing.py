@@ -11,7 +11,6 @@ import numpy as np
 
 from .contact import Contact
 from .errors import StepRefused
-from .results import State
 from .skin import Integers, Reals
 
 if TYPE_CHECKING:
@@ -32,9 +31,7 @@ class Closing:
     def __init__(self, contact: Contact, bodies: Integers, fixed: Integers):
         self.contact, self.n_bodies = contact, int(bodies.max()) + 1
         self.held = np.unique(bodies[fixed])
-        # Of each interface both bodies; a surface without unknowns is the ground, which is behind the last one.
-        self.joints = [tuple(int(bodies[numbers.max()]) if numbers.max() >= 0 else self.n_bodies for numbers in sides)
-                       for sides in contact.unknowns_of_sides()]
+        self.bodies = bodies
         self.size = float(np.linalg.norm(np.ptp(contact.X, axis=0)))
         self.active, self.cut = False, False
         self.whole, self.shift, self.first = _SETTLED, _LOOSE, 0.0
@@ -45,12 +42,14 @@ class Closing:
         from scipy.sparse.csgraph import connected_components
 
         ground = self.n_bodies
-        touching = [states.count(State.GAP) < states.bearing.sum() for states in self.contact.states(x)]
-        edges = [joint for joint, touches in zip(self.joints, touching) if touches] + [(int(body), ground) for body in self.held]
+        # A surface without unknowns is the ground, which is behind the last body.
+        bodies = np.append(self.bodies, ground)
+        joints = [(int(bodies[one]), int(bodies[two]), touches) for one, two, touches in self.contact.touching(x)]
+        edges = [joint[:2] for joint in joints if joint[2]] + [(int(body), ground) for body in self.held]
         rows, columns = zip(*edges) if edges else ((), ())
         graph = scipy.sparse.coo_matrix((np.ones(len(edges)), (rows, columns)), shape=(ground + 1, ground + 1))
         groups = connected_components(graph, directed=False)[1]
-        return any(groups[body] != groups[ground] for joint in self.joints for body in joint)
+        return any(groups[body] != groups[ground] for joint in joints for body in joint[:2])
 
     def begin(self, x: Reals, force: bool) -> None:
         """Settles whether this step needs it."""

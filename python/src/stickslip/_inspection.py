@@ -23,7 +23,7 @@ def _members(name: str) -> list[tuple[str, Any]]:
     return [(member, field.type) for member, field in ffi.typeof(f"struct stickslip_{name}").fields]
 
 
-def _scalars(struct: Any, name: str) -> dict[str, Any]:
+def scalars(struct: Any, name: str) -> dict[str, Any]:
     """The members that are numbers, and the short arrays among them."""
     out = {}
     for member, kind in _members(name):
@@ -34,10 +34,51 @@ def _scalars(struct: Any, name: str) -> dict[str, Any]:
     return out
 
 
-def _new(name: str) -> Any:
+def new(name: str) -> Any:
     struct = ffi.new(f"struct stickslip_{name} *")
     struct.struct_size = ffi.sizeof(f"struct stickslip_{name}")
     return struct
+
+
+def room_for_states(shape: tuple[int, ...]) -> tuple[Any, dict[str, Any], list[Any]]:
+    """The C struct, the arrays that it fills, by name, and what has to live as long as it does."""
+    vectors = ("normal", "traction", "slip")
+    out, arrays = new("states"), {}
+    for member, kind in _members("states"):
+        if kind.kind == "pointer":
+            arrays[member] = np.zeros(shape if member in vectors else shape[:1], _TYPES[kind.item.cname])
+    kept = {member: pointer(array) for member, array in arrays.items()}
+    for member, address in kept.items():
+        setattr(out, member, address)
+    return out, arrays, list(kept.values())
+
+
+def room_for_equilibrium(modulus: float, least_traction: float) -> Any:
+    """The C struct with what it reads."""
+    out = new("equilibrium")
+    out.modulus, out.least_traction = modulus, least_traction
+    return out
+
+
+def judge(e: Equilibrium, tolerance: float) -> None:
+    """Refuses a step that must not count, and warns of one that counts and is off: docs/host_convergence.md."""
+    scales = {"gap": e.gap_scale, "traction": e.traction_scale, "slip": e.slip_scale}
+    for name, scale in scales.items():
+        if not getattr(e, name) <= tolerance * scale:
+            raise StepRefused(f"the contact is not in equilibrium: a {name} of {getattr(e, name):.3g} that the law forbids, of a "
+                              f"scale of {scale:.3g}, at node {getattr(e, name + '_node')}")
+    lags = (f"surfaces have turned within the step, and pressures lag by {e.lag:.3g} at node {e.lag_node}: take a smaller step, or "
+            "normals of now")
+    for amount, scale, (told, most), text in (
+        (e.penetration, e.penetration_scale, _OVERLAP, f"bodies overlap by {e.penetration:.3g} at node {e.penetration_node}"),
+        (e.apart, e.apart_scale, _OVERLAP, f"node {e.apart_node} presses although the bodies are {e.apart:.3g} apart"),
+        (e.lag, e.traction_scale, _LAG, lags),
+        (e.lag_force, e.lag_force_scale, _LAG, lags),
+    ):
+        if amount > most * scale:
+            raise StepRefused(text)
+        if amount > told * scale:
+            warnings.warn(text, StepWarning, stacklevel=3)
 
 
 class Inspection:
@@ -56,17 +97,7 @@ class Inspection:
 
         Call it before the commit.
         """
-        vectors = ("normal", "traction", "slip")
-        out = _new("states")
-        arrays = {}
-        for member, kind in _members("states"):
-            if kind.kind != "pointer":
-                continue
-            shape = self._shape1 if member in vectors else (self.n1,)
-            arrays[member] = np.zeros(shape, _TYPES[kind.item.cname])
-        kept = {member: pointer(array) for member, array in arrays.items()}
-        for member, address in kept.items():
-            setattr(out, member, address)
+        out, arrays, _kept = room_for_states(self._shape1)
         self._call("states", *self._point(x1, x2, lam, sums), out)
         states = States(**arrays, bearing=self._bearing)
         self._told = f"last seen: {states}"
@@ -75,10 +106,9 @@ class Inspection:
     def equilibrium(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, modulus: float = 0.0,
                     least_traction: float = 0.0, sums: ArrayLike | None = None) -> Equilibrium:
         """How far the point is from equilibrium, by the names of ``stickslip_equilibrium``."""
-        out = _new("equilibrium")
-        out.modulus, out.least_traction = modulus, least_traction
+        out = room_for_equilibrium(modulus, least_traction)
         self._call("equilibrium", *self._point(x1, x2, lam, sums), out)
-        return Equilibrium(**_scalars(out, "equilibrium"))
+        return Equilibrium(**scalars(out, "equilibrium"))
 
     def check_step(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, modulus: float = 0.0, least_traction: float = 0.0,
                    tolerance: float = 1e-10, sums: ArrayLike | None = None) -> Equilibrium:
@@ -89,28 +119,12 @@ class Inspection:
         three where they begin. With ``sums`` each process speaks of its own part.
         """
         e = self.equilibrium(x1, x2, lam, modulus=modulus, least_traction=least_traction, sums=sums)
-        scales = {"gap": e.gap_scale, "traction": e.traction_scale, "slip": e.slip_scale}
-        for name, scale in scales.items():
-            if not getattr(e, name) <= tolerance * scale:
-                raise StepRefused(f"the contact is not in equilibrium: a {name} of {getattr(e, name):.3g} that the law forbids, of a "
-                                  f"scale of {scale:.3g}, at node {getattr(e, name + '_node')}")
-        lags = (f"surfaces have turned within the step, and pressures lag by {e.lag:.3g} at node {e.lag_node}: take a smaller step, or "
-                "normals of now")
-        for amount, scale, (told, most), text in (
-            (e.penetration, e.penetration_scale, _OVERLAP, f"bodies overlap by {e.penetration:.3g} at node {e.penetration_node}"),
-            (e.apart, e.apart_scale, _OVERLAP, f"node {e.apart_node} presses although the bodies are {e.apart:.3g} apart"),
-            (e.lag, e.traction_scale, _LAG, lags),
-            (e.lag_force, e.lag_force_scale, _LAG, lags),
-        ):
-            if amount > most * scale:
-                raise StepRefused(text)
-            if amount > told * scale:
-                warnings.warn(text, StepWarning, stacklevel=2)
+        judge(e, tolerance)
         return e
 
     def report(self, x1: ArrayLike, x2: ArrayLike) -> Report:
         """Which nodes are covered, and what surfaces that do not meet look like; ``text`` says it in sentences."""
-        out = _new("report")
+        out = new("report")
         arrays: dict[str, Any] = {"cover": np.zeros(self.n1, np.int32), "fraction": np.zeros(self.n1),
                                          "layers": np.zeros(self.n1, np.int32)}
         kept = {member: pointer(array) for member, array in arrays.items()}
@@ -119,15 +133,15 @@ class Inspection:
         buffer = ffi.new("char[]", _TEXT)
         out.text, out.text_capacity = buffer, _TEXT
         self._call("report", *self._positions(x1, x2), out)
-        return Report(**_scalars(out, "report"), **arrays, text=ffi.string(buffer).decode())
+        return Report(**scalars(out, "report"), **arrays, text=ffi.string(buffer).decode())
 
     def diagnose(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, sums: ArrayLike | None = None) -> Diagnosis:
         """The worst pairs and where the matrix may be singular; ``text`` says it in sentences."""
-        out = _new("diagnosis")
+        out = new("diagnosis")
         buffer = ffi.new("char[]", _TEXT)
         out.text, out.text_capacity = buffer, _TEXT
         self._call("diagnose", *self._point(x1, x2, lam, sums), out)
-        return Diagnosis(**_scalars(out, "diagnosis"), text=ffi.string(buffer).decode())
+        return Diagnosis(**scalars(out, "diagnosis"), text=ffi.string(buffer).decode())
 
     def effects(self) -> str:
         """What the interface computes and why, in sentences."""
@@ -137,9 +151,9 @@ class Inspection:
 
     def counters(self) -> Counters:
         """What the interface has done, by the names of ``stickslip_counters``."""
-        out = _new("counters")
+        out = new("counters")
         self._call("counters", out)
-        return Counters(**_scalars(out, "counters"))
+        return Counters(**scalars(out, "counters"))
 
     def carriers(self) -> tuple[Array, Array, Array]:
         """``(nodes, carriers, weights)``: which nodes carry weakly covered ones in this step, lam[A] = sum of w_AB lam[B].

@@ -12,7 +12,7 @@ from .errors import InvalidSize, InvalidValue
 from .interface import Interface
 from .meshes import split_creases
 from .plan import CondensedPlan, Plan
-from .results import States
+from .results import Gradient, State, States
 from .skin import Facets, Integers, Reals
 from .surface import Surface
 
@@ -25,7 +25,7 @@ _CORNERS = {2: {2: 2, 3: 2}, 3: {3: 3, 4: 4, 6: 3, 8: 4, 9: 4}}
 _MESHIO = {(2, 2): "line", (2, 3): "line3", (3, 3): "triangle", (3, 4): "quad", (3, 6): "triangle6", (3, 8): "quad8", (3, 9): "quad9"}
 
 
-def _rows(name: str, facets: Facets, dimension: int) -> list[Integers]:
+def checked_rows(name: str, facets: Facets, dimension: int) -> list[Integers]:
     rows = [np.asarray(row) for row in facets]
     if not rows or any(row.ndim != 1 or row.dtype.kind not in "iu" for row in rows):
         raise InvalidSize(f"{name}: rows of node numbers are needed, one or more, as stickslip.skin gives them")
@@ -35,13 +35,35 @@ def _rows(name: str, facets: Facets, dimension: int) -> list[Integers]:
     return rows
 
 
+def add_forces(vector: Reals, equations: Integers, force: Reals) -> None:
+    """Adds forces to the rows of their equations."""
+    np.add.at(vector, equations[equations >= 0], force[equations >= 0])
+
+
+def in_space(vectors: Reals) -> Reals:
+    """Vectors of three components."""
+    return np.pad(vectors, ((0, 0), (0, 3 - vectors.shape[1])))
+
+
+def mesh_of(x: Reals, facets: list[Integers], states: States, of_facets: dict[str, Any]) -> Any:
+    """A surface in space with what is known of its nodes and facets, of meshio's."""
+    import meshio
+
+    dimension = 2 if states.normal.shape[1] == 2 else 3
+    cells = [(_MESHIO[dimension, len(row)], row[None]) for row in facets]
+    flat = {name: np.asarray(getattr(states, name)) for name in ("state", "pressure", "coverage", "share")}
+    vectors = {name: in_space(getattr(states, name)) for name in ("normal", "traction", "slip")}
+    blocks = {name: [values[k : k + 1] for k in range(len(cells))] for name, values in of_facets.items()}
+    return meshio.Mesh(x, cells, point_data={**flat, **vectors}, cell_data=blocks)
+
+
 class Pair:
     """Two surfaces of the nodes X, whose displacements are the equations ``numbers``; multipliers are numbered from ``first`` on."""
 
     def __init__(self, X: Reals, numbers: Integers, first: int, sides: tuple[Facets, Facets | Surface], *, held: Integers,
                  crease: float | None, condensed: bool, options: dict[str, Any]):
         dimension = X.shape[1]
-        rows = _rows("facets1", sides[0], dimension)
+        rows = checked_rows("facets1", sides[0], dimension)
         self.nodes1 = np.unique(np.concatenate(rows))
         local = [np.searchsorted(self.nodes1, row) for row in rows]
         if crease is not None:
@@ -55,7 +77,7 @@ class Pair:
                 raise InvalidValue("facets2: a Surface with unknowns; give the node numbers of its facets in its place")
             self.equations2 = self.mortar.equations
         else:
-            rows = _rows("facets2", sides[1], dimension)
+            rows = checked_rows("facets2", sides[1], dimension)
             self.nodes2 = np.unique(np.concatenate(rows))
             self.equations2 = numbers[self.nodes2]
             self.mortar = Surface(X[self.nodes2], [np.searchsorted(self.nodes2, row) for row in rows], self.equations2)
@@ -71,12 +93,8 @@ class Pair:
         if self.mask.ndim == 1 and self.held.any():  # the one multiplier of a node stays, its normal keeps to what is free
             nodes, axes = np.nonzero(self.held)
             self.face.set_constraints(nodes, np.eye(dimension)[axes])
-        #: Whether its normals follow the surface within a step.
-        self.turns = True
-        try:
-            self.face.use_normals("current")
-        except InvalidValue:
-            self.turns = False
+        self._turns = True
+        self.use_normals("current")
         self.modulus = float(options.get("modulus", 0.0))
         #: The largest traction of the steps before.
         self.largest = 0.0
@@ -101,17 +119,7 @@ class Pair:
 
     def mesh(self, u: Reals, states: States) -> Any:
         """The first side of meshio's."""
-        import meshio
-
-        cells = [(_MESHIO[self.X1.shape[1], len(row)], row[None]) for row in self.facets1]
-        x1, _ = self.positions(u)
-        flat = {name: np.asarray(getattr(states, name)) for name in ("state", "pressure", "coverage", "share")}
-        vectors = {name: self._in_space(getattr(states, name)) for name in ("normal", "traction", "slip")}
-        return meshio.Mesh(self._in_space(x1), cells, point_data={**flat, **vectors})
-
-    @staticmethod
-    def _in_space(vectors: Reals) -> Reals:
-        return np.pad(vectors, ((0, 0), (0, 3 - vectors.shape[1])))
+        return mesh_of(in_space(self.positions(u)[0]), self.facets1, states, {})
 
     def multipliers(self, values: Reals) -> Reals:
         """The array of the library from the values of those that there are."""
@@ -119,28 +127,68 @@ class Pair:
         lam[self.mask] = values
         return lam
 
-    def spread(self, vector: Reals, force1: Reals, force2: Reals) -> None:
+    def add_forces(self, vector: Reals, force1: Reals, force2: Reals) -> None:
         """Adds forces to the rows of the equations; creases have nodes twice."""
-        for equations, force in ((self.equations1, force1), (self.equations2, force2)):
-            np.add.at(vector, equations[equations >= 0], force[equations >= 0])
+        add_forces(vector, self.equations1, force1)
+        add_forces(vector, self.equations2, force2)
 
     def gather(self, vector: Reals) -> tuple[Reals, Reals]:
         """What a vector has at the nodes of both sides; 0 where there is no equation."""
         side1, side2 = (np.where(at < 0, 0.0, vector[at]) for at in (self.equations1, self.equations2))
         return side1, side2
 
-    def tangent(self, point: tuple[Reals, Reals, Reals], size: int) -> scipy.sparse.csr_matrix:
+    def tangent(self, point: tuple[Reals, ...], size: int) -> scipy.sparse.csr_matrix:
         """The share of the matrix, by a plan that is made when it is first asked for."""
+        x1, x2, lam = point
         if self._plan is None:
-            self._plan = Plan(self.face, *point[:2], size, pairs="skin")
-        return self._plan.values(*point)
+            self._plan = Plan(self.face, x1, x2, size, pairs="skin")
+        return self._plan.values(x1, x2, lam)
 
-    def pieces(self, point: tuple[Reals, Reals, Reals], size: int) -> tuple[Any, Any, Any]:
+    def use_normals(self, normals: str) -> bool:
+        """Whether its normals follow the surface within a step; then those of the step that follows are chosen."""
+        if self._turns:
+            try:
+                self.face.use_normals(normals)
+            except InvalidValue:
+                self._turns = False
+        return self._turns
+
+    def commit_check(self, point: tuple[Reals, ...]) -> None:
+        """Raises what the commit would raise."""
+        self.face.commit_check(*point)
+
+    def commit(self, point: tuple[Reals, ...]) -> Reals:
+        """Accepts a step; its multipliers stay as they are."""
+        self.face.commit(*point)
+        return point[-1]
+
+    def touching(self, states: States) -> list[tuple[Integers, Integers, bool]]:
+        """The equations of both sides, and whether a node is in contact."""
+        return [(self.equations1, self.equations2, states.count(State.GAP) < states.bearing.sum())]
+
+    def report(self, point: tuple[Reals, ...], is_first: bool) -> str:
+        """What is covered, in sentences."""
+        return self.face.report(*point[:2]).text
+
+    #: What an interface has as pairs does not change.
+    missed = 0
+
+    def adjoint(self, point: tuple[Reals, ...], inner: Reals, multipliers: Reals, wanted: tuple[str, ...]) -> Gradient:
+        """Products of a vector with derivatives of the residual."""
+        x1, x2, lam = point
+        return self.face.adjoint(x1, x2, lam, *self.gather(inner), self.multipliers(multipliers), wanted)
+
+    def set_committed(self, u: Reals, commits: int) -> None:
+        """What displacements ended becomes the step before."""
+        self.face.set_committed(*self.positions(u), commits=commits)
+
+    def pieces(self, point: tuple[Reals, ...], size: int) -> tuple[Any, Any, Any]:
         """Forces, elimination and constraints of the condensed matrix."""
+        x1, x2, lam = point
         if self._plan is None:
-            self._plan = CondensedPlan(self.face, *point[:2], size, pairs="skin")
-        forces, constraints = self._plan.values(*point)
-        elimination = self.system.piece(*point, size, "elimination")
+            self._plan = CondensedPlan(self.face, x1, x2, size, pairs="skin")
+        forces, constraints = self._plan.values(x1, x2, lam)
+        elimination = self.system.piece(x1, x2, lam, size, "elimination")
         if self.scaled:
-            constraints = constraints + self.system.piece(*point, size, "scales")
+            constraints = constraints + self.system.piece(x1, x2, lam, size, "scales")
         return forces, elimination, constraints

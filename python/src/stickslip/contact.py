@@ -10,7 +10,9 @@ from numpy.typing import ArrayLike
 from . import _arrays
 from ._arrays import given, output
 from ._pair import Pair
+from ._whole import Whole
 from .errors import InvalidSize, InvalidValue
+from .general import Skin
 from .interface import Interface
 from .options import Options, with_options
 from .results import Gradient, States
@@ -21,8 +23,9 @@ if TYPE_CHECKING:
     import scipy.sparse
     from typing_extensions import Unpack
 
-#: Positions of both sides, and the multipliers.
-Point = tuple[Reals, Reals, Reals]
+#: Positions of both sides, or of the whole skin, and the multipliers.
+Point = tuple[Reals, ...]
+Part = Pair | Whole
 # What contact equilibrium is measured to, over scales of its own: docs/host_convergence.md.
 _BALANCE = 1e-10
 
@@ -69,14 +72,15 @@ class Contact:
         if self.dofs.max() >= self._n_inner:
             raise InvalidValue(f"size: {size}, and dofs has {self.dofs.max()}; at least {self.dofs.max() + 1} is needed")
         self.condensed = condensed
-        self._pairs: list[Pair] = []
+        self._parts: list[Part] = []
         self._start: Reals | None = None
         self._at: Reals | None = None
         self._commits = 0
 
-    def add(self, facets1: Facets, facets2: Facets | Surface, *, held: ArrayLike = (), crease: float | None = None,
-            **options: Unpack[Options]) -> Contact:
-        """Adds an interface, and gives itself, so that more can be added.
+    def add(self, facets1: Facets, facets2: Facets | Surface | None = None, *, held: ArrayLike = (), crease: float | None = None,
+            bodies: ArrayLike | None = None, **options: Unpack[Options]) -> Contact:
+        """Adds an interface, and gives itself, so that more can be added. With ``facets1`` alone it is general contact: the whole skin
+        of all bodies, ``stickslip.skin(cells, X)``, each of which may touch every other one and itself.
 
         Parameters
         ----------
@@ -85,25 +89,44 @@ class Contact:
             written to its ``coordinates`` moves it.
         held : dofs of nodes of the first side that are prescribed on *both* sides, as on a plane of symmetry: no multiplier there.
             Where dofs is a matrix, rows of it.
-        crease : nodes on edges of the first side that are sharper than this angle get multipliers a face [rad]: docs/host_edges.md
+        crease : nodes on edges of the first side that are sharper than this angle get multipliers a face [rad]: docs/host_edges.md.
+            General contact has them anyhow.
+        bodies : of general contact, of each facet the number of its body; without it what hangs together is one. Friction between two of
+            them is ``contact.interfaces[0].set_pair(body1, body2, mu)``.
         **options : :class:`stickslip.Options`, as of :class:`stickslip.Interface`
         """
         if self._start is not None:
             raise InvalidValue("add: all interfaces are needed before start")
         numbers = self.dofs if self._map is None else np.arange(self.X.size).reshape(self.X.shape)
-        self._pairs.append(Pair(self.X, numbers, self._n_inner + self.n_multipliers, (facets1, facets2), crease=crease,
-                                held=np.asarray(held, dtype=np.int64).ravel(), condensed=self.condensed, options=dict(options)))
+        first, known = self._n_inner + self.n_multipliers, np.asarray(held, dtype=np.int64).ravel()
+        if facets2 is None:
+            self._refuse_whole(crease)
+            self._parts.append(Whole(self.X, numbers, first, facets1, bodies=bodies, held=known, options=dict(options)))
+        elif bodies is not None:
+            raise InvalidValue("bodies: two sides are named; bodies are for general contact, with facets1 alone")
+        else:
+            self._parts.append(Pair(self.X, numbers, first, (facets1, facets2), crease=crease, held=known, condensed=self.condensed,
+                                    options=dict(options)))
         return self
 
+    def _refuse_whole(self, crease: float | None) -> None:
+        """What does not go with general contact."""
+        if crease is not None:
+            raise InvalidValue("crease: general contact cuts the skin at edges sharper than 40 degrees by itself; facets2 is missing")
+        if self.condensed:
+            raise InvalidValue("condensed: general contact has multipliers among the unknowns; facets2 is missing")
+        if any(isinstance(part, Whole) for part in self._parts):
+            raise InvalidValue("add: there is a whole skin already; hand over all facets in one")
+
     @property
-    def interfaces(self) -> list[Interface]:
-        """The handles, in the order in which they were added."""
-        return [pair.face for pair in self._pairs]
+    def interfaces(self) -> list[Any]:
+        """The handles, in the order in which they were added: :class:`stickslip.Interface`, or :class:`stickslip.Skin`."""
+        return [part.face for part in self._parts]
 
     @property
     def n_multipliers(self) -> int:
         """How many multipliers there are, condensed or not."""
-        return sum(pair.count for pair in self._pairs)
+        return sum(part.count for part in self._parts)
 
     @property
     def size(self) -> int:
@@ -116,16 +139,16 @@ class Contact:
 
     def start(self, u: ArrayLike | None = None) -> Reals:
         """A vector to start the first step with: the host's unknowns ``u``, without it 0, and multipliers that hold what touches."""
-        if not self._pairs:
+        if not self._parts:
             raise InvalidValue("start: there is no interface; add one")
         x = np.zeros(self.size)
         if u is not None:
             x[: self.n_host] = given("u", u, (self.n_host,))
         if self.condensed:
-            for pair, (x1, x2, _) in self._evaluated(x):
+            for pair, (x1, x2, _) in self._condensed(self._evaluated(x)):
                 pair.system.multipliers(x1, x2, np.zeros(x1.shape))  # refuses here what has no condensed form, not in a step
         else:
-            x[self.n_host :] = np.concatenate([pair.face.initial_multipliers()[pair.mask] for pair in self._pairs])
+            x[self.n_host :] = np.concatenate([part.face.initial_multipliers()[part.mask] for part in self._parts])
         self._start, self._at = x.copy(), None
         return x
 
@@ -135,18 +158,18 @@ class Contact:
         self._at = None
         inner, rows = np.zeros(self._n_inner), []
         own = r.copy()
-        for pair, (x1, x2, lam) in self._evaluated(x):
-            if self.condensed:
-                host1 = np.where(pair.equations1 < 0, 0.0, own[pair.equations1])
-                fresh = not self._commits and self._start is not None and np.array_equal(x, self._start)
-                pair.lam = pair.face.initial_multipliers() if fresh else pair.system.multipliers(x1, x2, host1)
-                pair.scaled = not fresh
-                rows1, force2 = pair.system.residual(x1, x2, pair.lam, host1)
-                pair.spread(inner, rows1 - host1, force2)
-            else:
-                force1, force2, row = pair.face.residual(x1, x2, lam)
-                pair.spread(inner, force1, force2)
-                rows.append(row[pair.mask])
+        points = self._evaluated(x)
+        for pair, (x1, x2, _) in self._condensed(points):
+            host1 = np.where(pair.equations1 < 0, 0.0, own[pair.equations1])
+            fresh = not self._commits and self._start is not None and np.array_equal(x, self._start)
+            pair.lam = pair.face.initial_multipliers() if fresh else pair.system.multipliers(x1, x2, host1)
+            pair.scaled = not fresh
+            rows1, force2 = pair.system.residual(x1, x2, pair.lam, host1)
+            pair.add_forces(inner, rows1 - host1, force2)
+        for part, point in () if self.condensed else points:
+            *forces, row = part.face.residual(*point)
+            part.add_forces(inner, *forces)
+            rows.append(row[part.mask])
         r[: self.n_host] += inner if self._map is None else self._map.T @ inner
         if not self.condensed:
             r[self.n_host :] += np.concatenate(rows)
@@ -160,9 +183,9 @@ class Contact:
         import scipy.sparse
 
         if self.condensed:
-            return self._condense(self._points(x), K)
+            return self._condense(self._condensed(self._points(x)), K)
         size = self._n_inner + self.n_multipliers
-        total = sum((pair.tangent(point, size) for pair, point in self._points(x)), scipy.sparse.csr_matrix((size, size)))
+        total = sum((part.tangent(point, size) for part, point in self._points(x)), scipy.sparse.csr_matrix((size, size)))
         if self._map is not None:
             wide = scipy.sparse.block_diag([self._map, scipy.sparse.identity(self.n_multipliers)], "csr")
             total = wide.T @ total @ wide
@@ -179,8 +202,8 @@ class Contact:
 
     def balanced(self, x: Reals, tolerance: float = _BALANCE) -> bool:
         """Whether every interface is in contact equilibrium. Whether forces balance is the host's to ask."""
-        for pair, point in self._points(x):
-            e = pair.face.equilibrium(*point, modulus=pair.modulus, least_traction=pair.largest)
+        for part, point in self._points(x):
+            e = part.face.equilibrium(*point, modulus=part.modulus, least_traction=part.largest)
             if not (e.gap <= tolerance * e.gap_scale and e.traction <= tolerance * e.traction_scale
                     and e.slip <= tolerance * e.slip_scale):
                 return False
@@ -188,44 +211,56 @@ class Contact:
 
     def check(self, x: Reals) -> None:
         """Raises :class:`stickslip.StepRefused` where the step must not count, by :meth:`stickslip.Interface.check_step`."""
-        for pair, point in self._points(x):
-            pair.face.check_step(*point, modulus=pair.modulus, least_traction=pair.largest)
+        for part, point in self._points(x):
+            part.face.check_step(*point, modulus=part.modulus, least_traction=part.largest)
 
     def states(self, x: Reals) -> list[States]:
         """What :meth:`stickslip.Interface.states` says of each interface. Ask before the commit."""
-        return [pair.face.states(*point) for pair, point in self._points(x)]
+        return [part.face.states(*point) for part, point in self._points(x)]
 
     def surface(self, x: Reals, states: States, interface: int = 0) -> Any:
         """The first side of an interface as x has it, a mesh of meshio with what ``states`` say of its nodes: ``.write("contact.vtu")``."""
-        return self._pairs[interface].mesh(self._displacements(x), states)
+        return self._parts[interface].mesh(self._displacements(x), states)
 
     def commit(self, x: Reals) -> None:
-        """Accepts a converged step: all interfaces do, or none."""
-        points = []
-        for pair, (x1, x2, lam) in self._points(x):
-            states = pair.face.states(x1, x2, lam)
+        """Accepts a converged step: all interfaces do, or none. General contact changes multipliers of x, where it takes other sides.
+
+        :class:`stickslip.errors.ContactLost` of general contact: facets have met that were out of reach; solve the step again.
+        """
+        points, last = [], self.n_host
+        for part, point in self._points(x):
+            states, first, last = part.face.states(*point), last, last + part.count
+            lam = point[-1]
             if self.condensed:  # or the rounding of the host's forces decides who sticks at first in the next step
                 traction = states.traction
-                lam = np.where(pair.mask, (traction * states.normal).sum(axis=1) if lam.ndim == 1 else traction, 0.0)
-            pair.face.commit_check(x1, x2, lam)
-            points.append((pair, (x1, x2, lam), np.linalg.norm(states.traction, axis=1).max()))
-        for pair, point, traction in points:
-            pair.face.commit(*point)
-            pair.largest = max(pair.largest, float(traction))
+                lam = np.where(part.mask, (traction * states.normal).sum(axis=1) if lam.ndim == 1 else traction, 0.0)
+            part.commit_check((*point[:-1], lam))
+            points.append((part, (*point[:-1], lam), slice(first, last), np.linalg.norm(states.traction, axis=1).max(initial=0.0)))
+        points.sort(key=lambda entry: isinstance(entry[0], Pair))  # what can refuse still comes first
+        for part, point, place, traction in points:
+            lam = part.commit(point)
+            if not self.condensed:
+                x[place] = lam[part.mask]
+            part.largest = max(part.largest, float(traction))
         self._commits += 1
+
+    @property
+    def missed(self) -> int:
+        """How many commits of general contact were refused since facets had met out of reach. It looks for them since then."""
+        return sum(part.missed for part in self._parts)
 
     def rollback(self) -> None:
         """Undoes the last commit."""
-        for pair in self._pairs:
-            pair.face.rollback()
+        for part in self._parts:
+            part.face.rollback()
         self._commits -= 1
 
     def set_committed(self, x: Reals, commits: int = 0) -> None:
         """What x ended becomes the step before, whatever was committed; ``commits``: how many there were then. Slip so far is 0 again,
         which nothing depends on."""
         u = self._displacements(x)
-        for pair in self._pairs:
-            pair.face.set_committed(*pair.positions(u), commits=commits)
+        for part in self._parts:
+            part.set_committed(u, commits)
         self._commits = commits
 
     def adjoint(self, x: Reals, a: Reals, wanted: tuple[str, ...]) -> tuple[list[Gradient], Reals]:
@@ -235,12 +270,12 @@ class Contact:
             raise InvalidValue("adjoint: needs multipliers among the unknowns, not condensed")
         inner = a[: self.n_host] if self._map is None else self._map @ a[: self.n_host]
         behind, last, products = np.zeros(self._n_inner), self.n_host, []
-        for pair, point in self._points(x):
-            first, last = last, last + pair.count
-            product = pair.face.adjoint(*point, *pair.gather(inner), pair.multipliers(a[first:last]), wanted)
+        for part, point in self._points(x):
+            first, last = last, last + part.count
+            product = part.adjoint(point, inner, a[first:last], wanted)
             products.append(product)
             if product.previous1 is not None and product.previous2 is not None:
-                pair.spread(behind, product.previous1, product.previous2)
+                part.add_forces(behind, product.previous1, product.previous2)
         whole = np.zeros(self.size)
         whole[: self.n_host] = behind if self._map is None else self._map.T @ behind
         return products, whole
@@ -250,50 +285,50 @@ class Contact:
 
         See :meth:`stickslip.Interface.use_normals`.
         """
-        turning = [pair.face for pair in self._pairs if pair.turns]
-        for face in turning:
-            face.use_normals(normals)
-        return bool(turning)
+        return any([part.use_normals(normals) for part in self._parts])
 
     def turn_multipliers(self, x: Reals) -> None:
         """Turns multipliers in place with the surfaces, where a step starts from positions that are turned already."""
         last = self.n_host
-        for pair, (x1, _, lam) in self._evaluated(x):
-            first, last = last, last + pair.count
-            pair.face.turn_multipliers(x1, lam)
+        for part, (*positions, lam) in self._evaluated(x):
+            first, last = last, last + part.count
+            part.face.turn_multipliers(positions[0], lam)
             if not self.condensed:
-                x[first:last] = lam[pair.mask]
+                x[first:last] = lam[part.mask]
 
     def step_limit(self, x: Reals, step: Reals) -> float:
         """How much of a change of all unknowns may be taken before surfaces lie in each other, at most 1."""
         u, moved = self._displacements(x), self._displacements(step)
         limits = [1.0]
-        for pair in self._pairs:
-            x1, x2 = pair.positions(u)
-            end1, end2 = pair.positions(u + moved)
-            limits.append(pair.face.step_limit(x1, x2, end1 - x1, end2 - x2))
+        for part in self._parts:
+            at, end = part.positions(u), part.positions(u + moved)
+            limits.append(part.face.step_limit(*at, *(b - a for a, b in zip(at, end))))
         return min(limits)
 
-    def unknowns_of_sides(self) -> list[tuple[Integers, Integers]]:
-        """The host's unknowns at the nodes of both sides of each interface; -1: none."""
-        if self._map is None:
-            return [(pair.equations1, pair.equations2) for pair in self._pairs]
-        column = np.append(self._map.indices, -1)[np.where(np.diff(self._map.indptr) > 0, self._map.indptr[:-1], -1)]
-        return [(column[pair.equations1], np.where(pair.equations2 < 0, -1, column[pair.equations2])) for pair in self._pairs]
+    def touching(self, x: Reals) -> list[tuple[int, int, bool]]:
+        """Of what may touch an unknown of the host on either side, -1: none, and whether it does."""
+        sides = [joint for part, states in zip(self._parts, self.states(x)) for joint in part.touching(states)]
+        column = np.arange(self._n_inner)
+        if self._map is not None:
+            column = np.append(self._map.indices, -1)[np.where(np.diff(self._map.indptr) > 0, self._map.indptr[:-1], -1)]
+        last = [[int(column[numbers[numbers >= 0]].max(initial=-1)) for numbers in joint[:2]] for joint in sides]
+        return [(one, two, joint[2]) for (one, two), joint in zip(last, sides)]
 
     def first_side(self) -> Integers:
         """The host's unknowns of all nodes that have multipliers."""
-        bearing = [pair.mask.reshape(len(pair.mask), -1).any(axis=1) for pair in self._pairs]
-        numbers: Integers = np.concatenate([pair.equations1[nodes].ravel() for pair, nodes in zip(self._pairs, bearing)])
+        pairs = [part for part in self._parts if isinstance(part, Pair)]
+        bearing = [pair.mask.reshape(len(pair.mask), -1).any(axis=1) for pair in pairs]
+        numbers: Integers = np.concatenate([pair.equations1[nodes].ravel() for pair, nodes in zip(pairs, bearing)])
         return numbers[numbers >= 0]
 
-    def report(self) -> str:
-        """Which nodes are covered in the first configuration, and what looks wrong, in sentences."""
-        u = np.zeros(self.X.shape)
-        told = [pair.face.report(*pair.positions(u)).text for pair in self._pairs]
-        nodes, claims = np.unique(np.concatenate([np.unique(pair.nodes1) for pair in self._pairs]), return_counts=True)
+    def report(self, x: Reals | None = None) -> str:
+        """Which nodes are covered in the first configuration, or at ``x``, and what looks wrong, in sentences. Of general contact who may
+        touch whom in this step, and at ``x``, before its commit, who does, and with what force."""
+        told = [part.report(point, x is None) for part, point in self._evaluated(np.zeros(self.size) if x is None else x)]
+        sides = [np.unique(part.nodes1) for part in self._parts if isinstance(part, Pair)]
+        nodes, claims = np.unique(np.concatenate([*sides, []]), return_counts=True)
         if (claims > 1).any():
-            told.append(f"Nodes {nodes[claims > 1].tolist()} have multipliers in several interfaces: see docs/host_edges.md.")
+            told.append(f"Nodes {nodes[claims > 1].astype(int).tolist()} have multipliers in several interfaces: see docs/host_edges.md.")
         return "\n".join(told)
 
     def _displacements(self, x: Reals) -> Reals:
@@ -303,18 +338,23 @@ class Contact:
             return out
         return np.where(self.dofs < 0, 0.0, x[self.dofs])
 
-    def _points(self, x: Reals) -> list[tuple[Pair, Point]]:
+    def _points(self, x: Reals) -> list[tuple[Part, Point]]:
         """Each interface with positions and multipliers. Condensed ones are those of the last residual, at this x."""
         if self.condensed and (self._at is None or not np.array_equal(x, self._at)):
             raise InvalidValue("x: condensed multipliers follow from the host's forces: add_residual at this x is needed before")
         return self._evaluated(x)
 
-    def _evaluated(self, x: Reals) -> list[tuple[Pair, Point]]:
+    def _evaluated(self, x: Reals) -> list[tuple[Part, Point]]:
         u, last, out = self._displacements(x), self.n_host, []
-        for pair in self._pairs:
-            first, last = last, last + pair.count
-            out.append((pair, (*pair.positions(u), pair.lam if self.condensed else pair.multipliers(x[first:last]))))
+        for part in self._parts:
+            first, last = last, last + part.count
+            lam = part.lam if self.condensed and isinstance(part, Pair) else part.multipliers(x[first:last])
+            out.append((part, (*part.positions(u), lam)))
         return out
+
+    def _condensed(self, points: list[tuple[Part, Point]]) -> list[tuple[Pair, Point]]:
+        """Those whose multipliers are no unknowns."""
+        return [(part, point) for part, point in points if isinstance(part, Pair)] if self.condensed else []
 
 
 def _grown(K: scipy.sparse.csr_matrix, n_host: int, size: int) -> scipy.sparse.csr_matrix:

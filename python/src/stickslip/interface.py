@@ -11,12 +11,13 @@ from numpy.typing import ArrayLike
 
 from . import options as _options
 from ._arrays import Array, given, output, pointer
+from ._handle import Handle
 from ._heat import Heats
 from ._inspection import Inspection
 from ._laws import Laws
-from ._library import call, ffi, lib, value_of
+from ._library import call, ffi, value_of
 from ._sensitivity import Sensitivities
-from .errors import Error, InvalidValue
+from .errors import Error
 from .surface import Surface
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 
-class Interface(Heats, Inspection, Laws, Sensitivities):
+class Interface(Heats, Inspection, Laws, Sensitivities, Handle):
     """Two surfaces in contact.
 
     ``x1`` and ``x2`` are current positions of the non-mortar and the mortar nodes, (n1, d) and (n2, d) [L], with d = 3, or
@@ -41,8 +42,9 @@ class Interface(Heats, Inspection, Laws, Sensitivities):
         A choice is the end of the header's constant in small letters. What is left out has the library's default.
     """
 
+    _kind = "interface"
+
     def __init__(self, nonmortar: Surface, mortar: Surface, **options: Unpack[_options.Options]):
-        self._handle = ffi.NULL
         made, _method = _options.make(dict(options))
         first, kept_first = nonmortar._struct()
         second, kept_second = mortar._struct()
@@ -71,29 +73,12 @@ class Interface(Heats, Inspection, Laws, Sensitivities):
     def __repr__(self) -> str:
         return f"<Interface: {self._text}; {'closed' if self._handle == ffi.NULL else self._told}>"
 
-    def close(self) -> None:
-        """Gives the handle back. A second time does nothing."""
-        if self._handle != ffi.NULL:
-            slot = ffi.new("struct stickslip_interface **", self._handle)
-            self._handle = ffi.NULL
-            call("interface_destroy", slot)
-
-    def __enter__(self) -> Interface:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
-
-    def __del__(self) -> None:
-        handle = getattr(self, "_handle", None)
-        if handle and lib is not None:
-            self.close()
+    def _destroy(self, slot: Any) -> None:
+        call("interface_destroy", slot)
 
     def _call(self, name: str, *arguments: Any) -> None:
-        if self._handle == ffi.NULL:
-            raise InvalidValue("the interface is closed")
         try:
-            call("interface_" + name, self._handle, *arguments)
+            super()._call("interface_" + name, *arguments)
         except Error as refused:
             cause, self._law_error = self._law_error, None
             if cause is None:

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from ._arrays import Array, pointer
 from ._library import constants, ffi, value_of
 from .errors import exception_of
+from .general import Skin
 from .interface import Interface
 
 if TYPE_CHECKING:
@@ -116,3 +117,44 @@ class CondensedPlan(_Planned):
         face = self._interface
         data = pointer(self.forces.data), pointer(self.constraints.data)
         face._call("condensed_values", *face._point(x1, x2, lam, None)[:3], *data)
+
+
+class SkinPlan:
+    """The tangent of a :class:`stickslip.Skin` as a scipy CSR matrix of ``(size, size)``.
+
+    ``matrix.data`` is refilled in place by :meth:`values`. Where what may touch has changed the plan is made anew: then ``matrix`` is
+    another object, and ``renewals`` has grown by one.
+
+    Parameters
+    ----------
+    skin : Skin
+    x : positions that the entries are found at [L]
+    size : the number of the host's equations, multipliers among them
+    pairs : "active" or "skin" (``STICKSLIP_PLAN_...``)
+    """
+
+    def __init__(self, skin: Skin, x: ArrayLike, size: int, *, pairs: str = "active"):
+        self._skin, self._size, self._pairs = skin, size, pairs
+        self.renewals = 0
+        self._make(x)
+
+    def _make(self, x: ArrayLike) -> None:
+        count = self._skin.plan(x, self._pairs)
+        rows, columns = self._skin.plan_coo(count)
+        # Interfaces that meet at a node have entries in common, which add up.
+        wide = int(columns.max(initial=0)) + 1
+        entries, self._places = np.unique(rows * wide + columns, return_inverse=True)
+        ascending, lengths = np.unique(entries // wide, return_counts=True)
+        self.matrix = empty_csr(ascending, lengths, entries % wide, self._size)
+        self._values = np.empty(count)
+
+    def values(self, x: ArrayLike, lam: ArrayLike) -> scipy.sparse.csr_matrix:
+        """Fills the matrix with the tangent at this point, and gives it."""
+        try:
+            self._skin.plan_values(x, lam, self._values)
+        except exception_of(constants["MISSING_ENTRY"]):
+            self._make(x)
+            self.renewals += 1
+            self._skin.plan_values(x, lam, self._values)
+        self.matrix.data[:] = np.bincount(self._places, self._values, len(self.matrix.data))
+        return self.matrix

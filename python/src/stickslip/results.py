@@ -199,3 +199,37 @@ class Gradient:
     #: By the offsets, (n1,) and (n2,).
     offsets1: Reals | None = None
     offsets2: Reals | None = None
+
+
+@dataclass(eq=False)
+class SkinFacets:
+    """Of each facet of a :class:`stickslip.Skin` who it may touch in this step."""
+
+    #: ``constants["SKIN_NONE"]``, ``"SKIN_NONMORTAR"``: it has the multipliers, ``"SKIN_MORTAR"``.
+    side: NDArray[np.int32]
+    #: The piece of a non-mortar facet, from 0; -1 of others.
+    piece: NDArray[np.int64]
+    #: The nearest facet that it may touch; -1: none.
+    partner: NDArray[np.int64]
+    #: How far apart the two are at t_n, below 0 where they are in each other [L].
+    distance: Reals
+    body: NDArray[np.int64]
+
+
+@dataclass
+class SkinReport:
+    """What a :class:`stickslip.Skin` has found in this step, and done since it was made. ``print(report)`` says it in sentences."""
+
+    bodies: int
+    #: Interfaces of this step, and pairs of facets that may touch.
+    pieces: int
+    pairs: int
+    contradictions: int
+    #: Since it was made: interfaces, facets in contact that have exchanged their side, steps refused since facets met out of reach.
+    made: int
+    exchanged: int
+    missed: int
+    text: str
+
+    def __str__(self) -> str:
+        return self.text

@@ -95,7 +95,7 @@ class _Steps:
         while ends:
             before = x.copy()
             try:
-                count, states = self._tried(x, begin, ends[-1])
+                count, states = self._counted(x, begin, ends[-1])
             except (InvalidSize, WrongType):
                 raise
             except Error as error:
@@ -112,6 +112,17 @@ class _Steps:
             if accepted is not None:
                 accepted(x, begin)
         return Step(end, x.copy(), iterations, cuts, states)
+
+    def _counted(self, x: Reals, begin: float, end: float) -> tuple[int, list[States]]:
+        """One step; once more where general contact looks for facets that have met out of its reach."""
+        before, missed = x.copy(), self.contact.missed
+        try:
+            return self._tried(x, begin, end)
+        except Error:
+            if self.contact.missed == missed:
+                raise
+        x[:] = before
+        return self._tried(x, begin, end)
 
     def _tried(self, x: Reals, begin: float, end: float) -> tuple[int, list[States]]:
         """The first attempt that converges, checked and committed. Raises what the last one has."""
