@@ -1,7 +1,7 @@
 //! The skin's handle: its pieces are asked one after the other, and made anew at a commit where what may touch has changed.
 
 use super::missed::are_in_each_other;
-use super::near::{Near, Reach, near};
+use super::near::{MOTIONS, Near, Reach, near};
 use super::piece::{Held, Rules};
 use super::pieces::{Wanted, has_all, pieces};
 use super::roles::{Role, Sides, sides};
@@ -46,6 +46,8 @@ pub struct Skin {
     /// Whether the plans are of these pieces.
     pub(super) is_planned: bool,
     pub(super) counts: Counts,
+    /// How far the host says that it looks; after a step that was refused since facets met out of reach the pieces look farther.
+    given: Option<f64>,
     before: Option<Before>,
 }
 
@@ -101,7 +103,7 @@ impl Skin {
         let x = reference(&whole)?;
         let rules = Rules { options, table: Table::default(), constraints: Vec::new() };
         let (start, counts) = (Start { x, ..Start::default() }, Counts::default());
-        let mut skin = Skin { whole, rules, held: Vec::new(), start, is_planned: false, counts, before: None };
+        let mut skin = Skin { whole, rules, held: Vec::new(), start, is_planned: false, counts, given: options.search_distance, before: None };
         skin.begin(0.0)?;
         Ok(skin)
     }
@@ -222,6 +224,7 @@ impl Skin {
         self.check(x, lambda)?;
         let motion = self.motion_to(x);
         self.refuse_missed(x, motion)?;
+        self.rules.options.search_distance = self.given;
         let mut brought = self.brought_by(x, lambda)?;
         for held in &mut self.held {
             let (contact, room) = held.at(&self.whole, x, lambda)?;
@@ -300,6 +303,7 @@ impl Skin {
             "facets {f} and {g} of the skin have met within the step, and {} pairs in all, but were out of reach at its start; they are looked for now: solve the step again from t_n, or a smaller one",
             missed.len()
         );
+        self.rules.options.search_distance = self.given.map(|reach| reach.max(MOTIONS * motion));
         self.begin_anew(motion)?;
         Err(Error::new(Kind::ContactLost, text))
     }
