@@ -33,7 +33,7 @@ class Solids:
         self.dimension = self.X.shape[1]
         modulus = np.repeat(young, [len(cells) for _, cells in bodies])
         self.shear, self.lame = modulus / (2 * (1 + POISSON)), modulus * POISSON / ((1 + POISSON) * (1 - 2 * POISSON))
-        self.least = float(np.min(young))
+        self.least, self.cut = float(np.min(young)), np.empty(0, int)
         signs = CORNERS if self.dimension == 3 else SQUARE
         self.gradients, self.volumes = [], []
         for point in signs / np.sqrt(3):
@@ -45,21 +45,30 @@ class Solids:
         own = self.dofs[self.cells].reshape(len(self.cells), -1)
         self.rows, self.columns, self.own = own.repeat(own.shape[1]), np.tile(own, own.shape[1]).ravel(), own
 
-    def skin(self, select=None):
-        return stickslip.skin(self.cells, self.X, select)
+    def skin(self):
+        """All outer facets, without cuts on planes of symmetry."""
+        facets = stickslip.skin(self.cells, self.X)
+        return facets[~np.isin(facets, self.cut).all(axis=1)]
+
+    def bodies(self):
+        """Of each facet of the skin its body."""
+        return np.searchsorted([nodes[-1] for nodes in self.nodes], self.skin()[:, 0])
 
     def evaluate(self, u, tangent):
-        x = (self.X + u.reshape(self.X.shape))[self.cells]
+        """Forces or stiffnesses of the cells. Stresses come from the gradient of u, so that their rounding is in proportion to it."""
+        u = u.reshape(self.X.shape)[self.cells]
         eye, total = np.eye(self.dimension), 0.0
         for grad, volume in zip(self.gradients, self.volumes):
-            F = np.einsum("eai,eaj->eij", x, grad)
-            det = np.linalg.det(F)
-            if not (det > 0).all():
+            H = np.einsum("eai,eaj->eij", u, grad)
+            growth = np.trace(H, axis1=1, axis2=2) + np.linalg.det(H)
+            if self.dimension == 3:
+                growth += (np.trace(H, axis1=1, axis2=2) ** 2 - np.einsum("eij,eji->e", H, H)) / 2
+            if not (growth > -1).all():
                 raise stickslip.StepRefused("a cell is turned inside out")
-            inverse, log = np.linalg.inv(F), np.log(det)
-            transposed = inverse.transpose(0, 2, 1)
+            inverse, log = np.linalg.inv(eye + H), np.log1p(growth)
             if not tangent:
-                P = self.shear[:, None, None] * (F - transposed) + (self.lame * log)[:, None, None] * transposed
+                back = inverse.transpose(0, 2, 1)
+                P = self.shear[:, None, None] * (H + back @ H.transpose(0, 2, 1)) + (self.lame * log)[:, None, None] * back
                 total = total + np.einsum("eij,eaj,e->eai", P, grad, volume)
                 continue
             now = np.einsum("eaj,eji->eai", grad, inverse)
@@ -78,8 +87,8 @@ class Solids:
         return scipy.sparse.coo_matrix((values, (self.rows, self.columns)), shape=(self.X.size,) * 2).tocsr()
 
     def contact(self, **options):
-        """General contact of the whole skin."""
-        return stickslip.Contact(self.X).add(self.skin(), **{"modulus": self.least, **options})
+        """General contact of the whole skin. Cuts leave the walls of a body without a connection, so the bodies are named."""
+        return stickslip.Contact(self.X).add(self.skin(), bodies=self.bodies(), **{"modulus": self.least, **options})
 
 
 class Run:
@@ -105,7 +114,12 @@ class Run:
                                 **how)
 
     def step(self, time, **how):
-        self.iterations.append(self.solve(time, **how))
+        before = self.x.copy()
+        try:
+            self.iterations.append(self.solve(time, **how))
+        except stickslip.StepRefused:  # as stickslip.steps goes on
+            self.x[:] = before
+            self.iterations.append(self.solve(time, search=True))
         self.states = self.contact.states(self.x)
         self.contact.check(self.x)
         self.ends.append(self.x.copy())
