@@ -1,7 +1,6 @@
 """Named pairs with the sides that general contact has taken in a run, to compare with."""
 
 import numpy as np
-import stickslip
 
 # As the library cuts the skin.
 RINGS = 2
@@ -66,7 +65,7 @@ class Sides:
 
 def contact(solids, groups, mu=0.0, **options):
     """The same by named pairs. Nodes that have multipliers in two of them are without friction, as those of general contact are."""
-    facets, made = solids.skin(), stickslip.Contact(solids.X)
+    facets, made = solids.skin(), solids.contacts()
     for own, mortar in groups:
         # The root of a fold is a node of both sides: it has no multiplier.
         roots = np.intersect1d(facets[own], facets[mortar])

@@ -33,7 +33,7 @@ class Solids:
         self.dimension = self.X.shape[1]
         modulus = np.repeat(young, [len(cells) for _, cells in bodies])
         self.shear, self.lame = modulus / (2 * (1 + POISSON)), modulus * POISSON / ((1 + POISSON) * (1 - 2 * POISSON))
-        self.least, self.cut = float(np.min(young)), np.empty(0, int)
+        self.least, self.cut, self.rigid = float(np.min(young)), np.empty(0, int), np.empty(0, int)
         signs = CORNERS if self.dimension == 3 else SQUARE
         self.gradients, self.volumes = [], []
         for point in signs / np.sqrt(3):
@@ -88,7 +88,13 @@ class Solids:
 
     def contact(self, **options):
         """General contact of the whole skin. Cuts leave the walls of a body without a connection, so the bodies are named."""
-        return stickslip.Contact(self.X).add(self.skin(), bodies=self.bodies(), **{"modulus": self.least, **options})
+        return self.contacts().add(self.skin(), bodies=self.bodies(), **{"modulus": self.least, **options})
+
+    def contacts(self):
+        """A Contact without interfaces; rigid nodes have no unknowns there."""
+        dofs = self.dofs.copy()
+        dofs[self.rigid] = -1
+        return stickslip.Contact(self.X, dofs, self.X.size)
 
 
 class Run:
