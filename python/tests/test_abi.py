@@ -99,6 +99,12 @@ def test_results_have_the_names_of_the_header(name):
     assert {field.name for field in dataclasses.fields(getattr(stickslip, name.capitalize()))} == members - left_out | own
 
 
+@pytest.mark.parametrize("name, made, own", [("skin_summary", stickslip.SkinReport, {"text"}), ("skin_sides", stickslip.SkinFacets, set())])
+def test_results_of_a_skin_have_the_names_of_the_header(name, made, own):
+    members = {member for member, _ in _library.ffi.typeof(f"struct stickslip_{name}").fields}
+    assert {field.name for field in dataclasses.fields(made)} == members - {"struct_size"} | own
+
+
 def test_what_is_shown(lines):
     assert repr(lines.interface) == "<Interface: 4 lines of 5 nodes on 3 lines of 4 nodes, coulomb, mu 0.3; no states yet>"
     states = lines.interface.states(*lines.pressed())

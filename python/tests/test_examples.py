@@ -53,6 +53,15 @@ def test_block_is_the_drivers(tmp_path):
     np.testing.assert_allclose(found, [*TOPLEFT, *TOPRIGHT], rtol=0, atol=DRIVER)
 
 
+def test_general_contact_of_several_bodies_and_of_one_with_itself(tmp_path):
+    printed = run("general_contact.py", tmp_path)
+    assert printed.count("iterations") == 24 and "cut back" not in printed
+    for pair in ("Bodies 0 and 1", "Body 1 and itself", "Bodies 1 and 2"):
+        assert f"{pair}: " in printed
+    assert int(re.search(r"time 2: .* (\d+) gap", printed).group(1)) < 200  # of 206 copies, so that more than one place is closed
+    assert "refused" not in printed and "not be put" not in printed
+
+
 def programs():
     return [part.split("```")[0] for part in (EXAMPLES.parent / "README.md").read_text().split("```python\n")[1:]]
 
