@@ -59,8 +59,7 @@ impl Seen {
         let centre = |facet: &Facet| facet.points().iter().sum::<Vec3>() / facet.points().len() as f64;
         let centres: Vec<_> = facets.iter().map(centre).stored()?;
         // A facet without an area looks nowhere, and meets none.
-        let normals: Vec<_> =
-            facets.iter().map(|f| f.area_vector().try_normalize(0.0).unwrap_or_default()).stored()?;
+        let normals: Vec<_> = facets.iter().map(|f| f.area_vector().try_normalize(0.0).unwrap_or_default()).stored()?;
         let sizes = facets.iter().map(Facet::longest_edge).stored()?;
         let wall = |f: usize| match whole.surface.backs.get(f) {
             Some(&back) if back != NO_FACET => normals[f].dot(&(centres[f] - centres[back as usize])).max(0.0),
