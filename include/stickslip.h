@@ -81,6 +81,22 @@
  * at the start of a step, interface_use_normals for a step in two phases. Before it: surface_split_creases or lines_split_creases where a non-mortar surface
  * has sharp edges, crosspoints_find where interfaces share nodes.
  *
+ * A host that hands over the whole skin of its bodies, without pairs and sides (docs/general_contact.md):
+ *
+ *     options_init, skin_create              once; skin_copies for the number of multipliers
+ *     skin_initial_multipliers               once, before the first step
+ *     skin_plan                              once, and again when values are refused because an entry is missing
+ *     skin_plan_coo, skin_plan_coo32         its entries
+ *     skin_residual, skin_plan_values        in each Newton iteration
+ *     skin_step_limit, skin_equilibrium, skin_states as of an interface
+ *     skin_commit                            after each converged step: who may touch whom is found anew;
+ *                                            skin_rollback undoes it
+ *     skin_destroy                           at the end
+ *
+ * and what it may add: skin_set_pair, skin_set_constraints; skin_facets, skin_report to see what was found; skin_exchange where a
+ * step does not converge; skin_use_normals, skin_turn_multipliers for steps in two phases; skin_history_size, skin_history_export,
+ * skin_history_import for restarts.
+ *
  * A host without multipliers among its unknowns (dual basis) has in place of pattern, residual and tangent:
  *
  *     interface_condensed_pattern            to preallocate its matrix
@@ -3174,6 +3190,16 @@ int32_t stickslip_skin_turn_multipliers(struct stickslip_skin *skin, const doubl
 int32_t stickslip_skin_commit(struct stickslip_skin *skin,
                               const double *x,
                               double *lambda);
+
+/// Exchanges the sides of all facets at t_n, for a step that fails however small it is: whether Newton's method converges may
+/// depend on the side that has the multipliers. Slips stay. Make the plan again, and solve the step once more from t_n.
+///
+/// lambda (3 copies) [F/L^2]: those of t_n, in and out: copies that take over have minus that of the nearest node of the other side.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, and those of `stickslip_skin_create`. No commit can be undone after it.
+/// Cost: that of the interfaces' creation. Allocates.
+int32_t stickslip_skin_exchange(struct stickslip_skin *skin,
+                                double *lambda);
 
 /// Undoes the last commit exactly; the host takes its multipliers of then. Only one can be undone. Make the plan again.
 ///
