@@ -110,3 +110,15 @@ def stick_zone(run, step=None):
     edge = lambda k, l: (place[k] + place[l]) / 2
     middle = (edge(closed[0] - 1, closed[0]) + edge(closed[-1], closed[-1] + 1)) / 2
     return (edge(stick[-1], stick[-1] + 1) - middle) / half, (edge(stick[0] - 1, stick[0]) - middle) / half
+
+
+def steady(run):
+    """The columns of `rolled` from STEADY on."""
+    return rolled(run).T[:, rolled(run)[:, 0] > STEADY]
+
+
+def end_of_stick(run):
+    """How far the border between stick and slip is from the formula's, over the half-width: the mean over the steps from STEADY on."""
+    first, share = len(run.steps) - len(steady(run)[0]) + 1, steady(run)[2].mean()
+    ends = [stick_zone(run, k)[0] for k in range(first, len(run.steps) + 1)]
+    return np.mean(ends) - (2 * np.sqrt(1 - share) - 1)

@@ -111,6 +111,11 @@ FINE, FINER = 1.35, 2
 RADIUS = 1000.0
 
 
+def positions(facets, count=10):
+    """Facets over the half-width, numbers that move the border through a facet."""
+    return facets + (np.arange(count) + 0.5) / count
+
+
 @functools.cache
 def rounded(flat):
     return formulas.RoundedPunch(flat, 1.0, RADIUS, MODULUS)

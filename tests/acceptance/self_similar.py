@@ -11,14 +11,9 @@ YOUNG, POISSON = 1.0, 0.3
 RADIUS = 1000.0
 # The block reaches so far; cells grow towards its ends.
 FAR, GROWTH, FINE = 30.0, 1.15, 1.2
-# At so many loads between them contact radii are compared.
+# Of the last contact radius: below it there are too few facets in the contact.
 FIRST = 1 / 3
 NAME = "contact"
-
-
-def loads(count):
-    """Parts of the final contact radius."""
-    return np.linspace(FIRST, 1, count)
 
 
 def times(steps):
@@ -64,3 +59,10 @@ def radii(table):
     stick = table["state"] == "stick"
     border = lambda inside: (x[inside.sum() - 1] + x[inside.sum()]) / 2 if inside.any() else 0.0
     return border(closed), border(stick)
+
+
+def at_loads(run, count=10):
+    """(contact, stick) radii at so many loads, those that steps end at: contact radii from FIRST on, equally spaced."""
+    steps = len(run.steps)
+    chosen = sorted({max(1, round(steps * part)) for part in np.linspace(FIRST, 1, count)})
+    return np.array([radii(run.interface(NAME, k)) for k in chosen])

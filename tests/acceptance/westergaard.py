@@ -19,8 +19,9 @@ WAVE = formulas.Wave(length=2.0, height=2e-4, modulus=MODULUS)
 # Twice as deep changes no digit of an error; cells that grow faster leave an error of their own (1.25: 0.15 %).
 DEPTH, GROWTH = 1.5 * WAVE.length, 1.06
 POSITIONS = 10
-# Facets over the half-width and over the half wave: the contact has about half of it.
-HALF_WAVE = 2
+# Facets over the half wave, in place of those over the half-width: under a light load the contact has a third of it, like Hertz', under
+# a heavier one half.
+LIGHT, HALF = 3.2, 2.0
 # Of the rigid flat side: its facets meet no node of the other.
 FLAT = 7
 NAME = "contact"
@@ -54,9 +55,14 @@ CORNER_STANDARD = element("quadratic, corner, standard", "quad8", multiplier_spa
 SUB = element("quadratic, sub", "quad8", multiplier_space="sub")
 
 
-def half_widths(facets, count=POSITIONS):
-    """That move the border through a facet."""
-    return (facets + (np.arange(count) + 0.5) / count) / (HALF_WAVE * facets) * WAVE.length / 2
+def half_widths(facets, part, count=POSITIONS):
+    """That move the border through a facet; `part`: LIGHT or HALF."""
+    return (facets + (np.arange(count) + 0.5) / count) / round(part * facets) * WAVE.length / 2
+
+
+def cells(element, facets, part):
+    """Over the half wave: as many nodes for quadratic ones."""
+    return round(part * facets) // (2 if element.quadratic else 1)
 
 
 def mesh(folder, cell, facets):
@@ -67,8 +73,8 @@ def mesh(folder, cell, facets):
     return PlaneMesh(cell, x, -deep[::-1], False, bend).write(folder / f"wavy_{cell}_{facets}.msh")
 
 
-def scene(folder, cell, facets, pressure):
-    """`facets`: over the half wave; `pressure`: the mean one."""
+def scene(folder, cell, facets, pressure, times=(1,)):
+    """`facets`: over the half wave; `pressure`: the mean one at time 1."""
     body = {"young": YOUNG, "poisson": POISSON, "small_strain": True}
     return write(
         {
@@ -81,31 +87,32 @@ def scene(folder, cell, facets, pressure):
             "symmetry": {"surface": ["wavy.xmin", "wavy.xmax"], "components": ["x"]},
             "rigid": {"body": "flat", "components": ["x", "y"]},
             "loads": ["press"],
-            "press": {"surface": "wavy.ymin", "pressure": pressure},
+            "press": {"surface": "wavy.ymin", "pressure": pressure, "curve": [0, 0, 1, 1]},
             "interfaces": [NAME],
             NAME: {"nonmortar": "wavy.ymax", "mortar": "flat.ymin"},
-            "steps": {"count": 1},
+            "steps": {"times": list(times)},
             "output": QUIET,
         },
-        folder / f"wave_{cell}_{facets}_{pressure:.6e}.yaml",
+        folder / f"wave_{cell}_{facets}_{pressure:.6e}_{len(times)}.yaml",
     )
+
+
+def options(element):
+    return [word for key, value in element.options for word in (f"-{NAME}_{key}", value)]
 
 
 def solve(driver, element, facets, half_width):
     """`facets`: over the half wave."""
     driver.output.mkdir(parents=True, exist_ok=True)
     path = scene(driver.output, element.cell, facets, WAVE.mean_pressure(half_width))
-    options = [word for key, value in element.options for word in (f"-{NAME}_{key}", value)]
-    label = f"{path.stem}_{element.name.replace(', ', '_')}"
-    return driver.run(path, *options, label=label)
+    return driver.run(path, *options(element), label=f"{path.stem}_{element.name.replace(', ', '_')}")
 
 
 def pressures(run, half_width, element):
     """(x, nodal forces over nodal areas, means of the exact pressure over the nodes' functions, areas)."""
     table = run.interface(NAME)
     table = table[np.argsort(table["X"])]
-    shapes = formulas.nodal_shares(table["X"], element.quadratic)
-    at, share = shapes
+    at, share = formulas.nodal_shares(table["X"], element.quadratic)
     area = share.sum(axis=1)
     return table["X"], -table["fy"] / area, share @ WAVE.pressure(at, half_width) / area, area
 
@@ -114,3 +121,46 @@ def error(run, half_width, element):
     """Root mean square over the nodes, over that of the pressure."""
     _, found, exact, area = pressures(run, half_width, element)
     return np.sqrt((area * (found - exact) ** 2).sum() / (area * exact**2).sum())
+
+
+def border_by_area(run):
+    """What is closed, as a length."""
+    table = run.interface(NAME)
+    if "closed" in table.dtype.names:
+        return (table["closed"] * table["area_covered"]).sum()
+    return table["area_full"][table["state"] != "gap"].sum()
+
+
+# Of the half-width: nodes that the border of the contact is fitted to.
+FITTED = (0.3, 0.8)
+
+
+def border_by_fit(run, half_width, element):
+    """Where the profile of the exact pressure ends that fits nodal ones best: its square over cos^2 is linear in sin^2."""
+    x, found, _, _ = pressures(run, half_width, element)
+    inside = (x > FITTED[0] * half_width) & (x < FITTED[1] * half_width)
+    angle = np.pi * x[inside] / WAVE.length
+    slope, top = np.polyfit(np.sin(angle) ** 2, (found[inside] / np.cos(angle)) ** 2, 1)
+    return WAVE.length / np.pi * np.arcsin(np.sqrt(min(1.0, -top / slope)))
+
+
+# Mean pressures over the one that closes the last gap, at which it is looked for; the last one has a gap no more.
+STEP = 0.001
+CLOSING = np.round(np.arange(0.98, 1.02 + STEP / 2, STEP), 3)
+
+
+def closing(driver, element, facets):
+    """The mean pressure in whose step the last gap closes, over the exact one; `facets` over the half wave."""
+    driver.output.mkdir(parents=True, exist_ok=True)
+    path = scene(driver.output, element.cell, facets, CLOSING[-1] * WAVE.closing, (CLOSING / CLOSING[-1]).tolist())
+    run = driver.run(path, *options(element), "-output_csv", "all", label=f"closing_{facets}_{element.name.replace(', ', '_')}")
+    for pressure, step in zip(CLOSING, range(1, len(run.steps) + 1)):
+        table = run.interface(NAME, step)
+        open_part = 1 - table["closed"].min() if "closed" in table.dtype.names else (table["state"] == "gap").sum()
+        if open_part < OPEN:
+            return pressure
+    return np.inf
+
+
+# Of a node's area: less is rounding.
+OPEN = 1e-9
