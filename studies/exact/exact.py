@@ -23,7 +23,7 @@ DOCUMENT = folders.ROOT / "docs" / "exact.md"
 
 def wave(driver, drawn):
     drawn["wave"] = found = waves.all_of(driver)
-    return {"digits": waves.digits(found), "wave": waves.table(found), "closing": waves.closing(driver)}
+    return {"digits": waves.digits(found), "wave": waves.table(found), "graded": waves.graded(driver), "closing": waves.closing(driver)}
 
 
 def spence(driver, drawn):

@@ -11,7 +11,7 @@ ELEMENTS = (STANDARD, DUAL, POINTS, CORNER_STANDARD, CORNER, SUB)
 LOADS = {"light": westergaard.LIGHT, "half": westergaard.HALF}
 FACETS = (5, 10, 20)
 # Of the elements that reach a tenth of a per cent.
-FINE, MORE = (DUAL, POINTS), (3, 40, 80)
+FINE, MORE = (DUAL, POINTS), {"light": (40,), "half": (40, 80)}
 # Over the half wave.
 CLOSING = (10, 20, 40)
 
@@ -28,10 +28,10 @@ class Found:
     unknowns: int
 
 
-def measure(driver, element, facets, part):
+def measure(driver, element, facets, part, times=0):
     rows, count = [], westergaard.cells(element, facets, part)
     for a in westergaard.half_widths(facets, part):
-        run = westergaard.solve(driver, element, count, a)
+        run = westergaard.solve(driver, element, count, a, westergaard.Halved(times, facets))
         rows.append((westergaard.error(run, a, element), westergaard.border_by_area(run) / a - 1,
                      westergaard.border_by_fit(run, a, element) / a - 1, run.newton_iterations, run.summary["seconds"]["processor"]))
     errors, area, fit, newton, seconds = np.array(rows).T
@@ -43,7 +43,7 @@ def all_of(driver):
     found = {}
     for load, part in LOADS.items():
         for element in ELEMENTS:
-            for facets in (*FACETS, *(MORE if element in FINE else ())):
+            for facets in (*FACETS, *(MORE[load] if element in FINE else ())):
                 found[load, element.name, facets] = measure(driver, element, facets, part)
     return found
 
@@ -83,6 +83,20 @@ def digits(found):
                     best = of_errors(of[-1][1].errors)
                     cells.append(f"{reached[0]} facets, {reached[1].seconds:.2f} s" if reached else f"{100 * best:.2g} % with {of[-1][0]}")
             body.append([load, element.name, *cells])
+    return head, body
+
+
+# Facets over the half-width, of which three around the border are halved so many times.
+GRADED, TIMES = (5, 10), (0, 1, 2, 3)
+
+
+def graded(driver):
+    head = ["element", "facets", *(["equal"] + [f"halved {n} times" for n in TIMES[1:]]), "seconds"]
+    body = []
+    for element in FINE:
+        for facets in GRADED:
+            of = [measure(driver, element, facets, westergaard.LIGHT, times) for times in TIMES]
+            body.append([element.name, str(facets), *(f"{100 * f.errors.mean():.2f} ({100 * f.errors.max():.2f})" for f in of), f"{of[-1].seconds:.2f}"])
     return head, body
 
 
