@@ -102,5 +102,7 @@ def graded(driver):
 
 def closing(driver):
     head = ["element", *(f"{n} facets over the half wave" for n in CLOSING)]
-    body = [[element.name, *(f"{westergaard.closing(driver, element, n // (2 if element.quadratic else 1)):.3f}" for n in CLOSING)] for element in ELEMENTS]
+    told = lambda pressure: f"above {westergaard.CLOSING[-1]:g}" if pressure is None else f"{pressure:.3f}"
+    count = lambda element, n: n // (2 if element.quadratic else 1)
+    body = [[element.name, *(told(westergaard.closing(driver, element, count(element, n))) for n in CLOSING)] for element in ELEMENTS]
     return head, body

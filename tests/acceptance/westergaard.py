@@ -145,7 +145,9 @@ def border_by_area(run):
     table = run.interface(NAME)
     if "closed" in table.dtype.names:
         return (table["closed"] * table["area_covered"]).sum()
-    return table["area_full"][table["state"] != "gap"].sum()
+    decide = np.sort(table[table["state"] != "none"], order="X")  # nodes without a multiplier have no state
+    half = np.diff(decide["X"]) / 2
+    return (np.append(half, 0) + np.append(0, half))[decide["state"] != "gap"].sum()
 
 
 # Of the half-width: nodes that the border of the contact is fitted to.
@@ -167,7 +169,7 @@ CLOSING = np.round(np.arange(0.98, 1.02 + STEP / 2, STEP), 3)
 
 
 def closing(driver, element, facets):
-    """The mean pressure in whose step the last gap closes, over the exact one; `facets` over the half wave."""
+    """The mean pressure in whose step the last gap closes, over the exact one; None: beyond the last; `facets` over the half wave."""
     driver.output.mkdir(parents=True, exist_ok=True)
     path = scene(driver.output, element.cell, facets, CLOSING[-1] * WAVE.closing, (CLOSING / CLOSING[-1]).tolist())
     run = driver.run(path, *options(element), "-output_csv", "all", label=f"closing_{facets}_{element.name.replace(', ', '_')}")
@@ -176,7 +178,7 @@ def closing(driver, element, facets):
         open_part = 1 - table["closed"].min() if "closed" in table.dtype.names else (table["state"] == "gap").sum()
         if open_part < OPEN:
             return pressure
-    return np.inf
+    return None
 
 
 # Of a node's area: less is rounding.
