@@ -15,7 +15,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: packages hosts newcomer help demo gallery effects aids method study border compare bench random fuzz stability scaling scaling-ranks ranks ranks-full newest-petsc ratios digest wheel python-examples check test test-long test-full build install uninstall docs reference abi sizes header compose meshes clean cmake-build rust-tests
+.PHONY: packages hosts newcomer help demo gallery effects aids method study border exact compare bench random fuzz stability scaling scaling-ranks ranks ranks-full newest-petsc ratios digest wheel python-examples check test test-long test-full build install uninstall docs reference abi sizes header compose meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
@@ -26,6 +26,7 @@ help:
 	@echo "             ONLY='SCENE ...': some (FIGURES=1: renew the digest in docs/method.md)"
 	@echo "make study   what accuracy costs in time, ten to thirty minutes, resumed; QUICK=1: a check; FIGURES=1: as above"
 	@echo "make border  the border of a contact, decided at nodes or at points: tables and a figure, ten minutes (FIGURES=1: as above)"
+	@echo "make exact   tests with exact answers, coarse to fine: tables and a figure, half an hour, resumed; ONLY='NAME ...': some (FIGURES=1: as above)"
 	@echo "make compare the same problems in other programs, those that are installed (FIGURES=1: renew the table)"
 	@echo "make bench   what the kernels cost, over a C++ baseline and in instructions (FIGURES=1: renew its table)"
 	@echo "make stability  hard cases x severity, each compared with an answer: build/stability/index.html; can be resumed;"
@@ -135,6 +136,12 @@ border:
 	$(SAY) "The border of the contact, decided at nodes and at points"
 	@$(PYTHON) studies/border/driver_table.py --build $(BUILD) $(if $(FIGURES),--renew-figures)
 	@$(PYTHON) studies/border/border.py --build $(BUILD) $(if $(FIGURES),--renew-figures)
+
+exact:
+	@.ci/setup demo
+	@$(MAKE) --no-print-directory cmake-build
+	$(SAY) "Tests with exact answers"
+	@$(PYTHON) studies/exact/exact.py --build $(BUILD) $(if $(ONLY),--only $(ONLY)) $(if $(FIGURES),--renew-figures)
 
 compare:
 	@.ci/setup compare
