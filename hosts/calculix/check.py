@@ -13,7 +13,7 @@ from pathlib import Path
 
 import meshio
 import numpy as np
-from decks import CONTROLS, SAME, Deck, box, grid, quadratic, tetrahedra
+from decks import CONTROLS, SAME, Deck, box, grid, quadratic, shell_on_block, tetrahedra, wedges
 
 ROOT = Path(__file__).resolve().parents[2]
 SCENE = ROOT / "c_examples/scenes/two_blocks.yaml"
@@ -49,10 +49,11 @@ class Run:
     """CalculiX on a deck; what it printed and wrote."""
 
     def __init__(self, program, folder, deck):
+        """deck: a Deck, or its text."""
         folder.mkdir(parents=True, exist_ok=True)
         for old in folder.glob("job.*"):
             old.unlink()
-        (folder / "job.inp").write_text(deck.text())
+        (folder / "job.inp").write_text(deck if isinstance(deck, str) else deck.text())
         done = subprocess.run([program, "job"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                               errors="replace", env={**os.environ, **STRIPPED})
         self.folder, self.said, self.code = folder, done.stdout, done.returncode
@@ -132,7 +133,8 @@ def column_pressure(nlgeom):
 
 
 def patch(program, out):
-    kinds = {"C3D8": lambda m: m, "C3D4": tetrahedra, "C3D20": quadratic, "C3D10": lambda m: quadratic(tetrahedra(m))}
+    kinds = {"C3D8": lambda m: m, "C3D4": tetrahedra, "C3D20": quadratic, "C3D10": lambda m: quadratic(tetrahedra(m)),
+             "C3D6": wedges, "C3D15": lambda m: quadratic(wedges(m))}
     for name, make in kinds.items():
         for nlgeom in (False, True):
             deck = two_blocks(make, 0, 0)
@@ -151,6 +153,14 @@ def patch(program, out):
     step(deck, gripped(deck, (0, 0, -0.005)), "*NODE PRINT, NSET=N1, TOTALS=ONLY\nRF", nlgeom=True)
     reaction = Run(program, out / "patch_own", deck).finished().total("N1")[2] / UNIT
     print(f"        its own contact (surface to surface, penalty 1e6) on the same patch, NLGEOM: {reaction:.4f}, right {column_pressure(True):.4f}")
+
+
+def shells(program, out):
+    pressure = 4 * UNIT
+    for kind in ("S4", "S8R"):
+        rows = Run(program, out / f"shell_{kind}", shell_on_block(kind, UNIT, pressure)).finished().nodes()
+        multipliers = rows[(rows[:, 1] == 1) & ~np.isnan(rows[:, 12])][:, 12:15]
+        judge(f"a plate of {kind} under pressure: multipliers", np.abs(multipliers / pressure + [0, 0, 1]).max() + abs(len(multipliers) - 25), PATCH)
 
 
 def friction(program, driver, out):
@@ -339,6 +349,7 @@ def main():
     arguments = parser.parse_args()
     program, out = arguments.program.resolve(), arguments.out.resolve()
     patch(program, out)
+    shells(program, out)
     friction(program, arguments.driver.resolve(), out)
     turning(program, out)
     chain(program, out)

@@ -8,11 +8,15 @@ import numpy as np
 # Corners of a cell in CalculiX' order, then its edges, whose middles are the other nodes of a quadratic cell.
 CUBE = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)])
 EDGES = {8: [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)],
+         6: [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)],
          4: [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)]}
 FACES = {8: [(0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)],
+         6: [(0, 1, 2), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)],
          4: [(0, 1, 2), (0, 1, 3), (1, 2, 3), (2, 0, 3)]}
 # A cube of six tetrahedra around its diagonal.
 TETRAHEDRA = [(0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6)]
+# A cube of two wedges that stand.
+WEDGES = [(0, 1, 2, 4, 5, 6), (0, 2, 3, 4, 6, 7)]
 PER_LINE = 16
 # Places are equal below this part of a unit.
 SAME = 1e-9
@@ -29,7 +33,7 @@ def number(value):
 class Mesh:
     points: np.ndarray
     cells: np.ndarray
-    corners: int  # of a cell: 8 or 4
+    corners: int  # of a cell: 8, 6 or 4
 
     @property
     def kind(self):
@@ -62,6 +66,10 @@ def box(lower, upper, cells):
 
 def tetrahedra(mesh):
     return Mesh(mesh.points, np.concatenate([mesh.cells[:, list(t)] for t in TETRAHEDRA]), 4)
+
+
+def wedges(mesh):
+    return Mesh(mesh.points, np.concatenate([mesh.cells[:, list(w)] for w in WEDGES]), 6)
 
 
 def quadratic(mesh, project=None):
@@ -127,3 +135,26 @@ class Deck:
         lines += [f"*CONTACT PAIR, INTERACTION=SI, {self.contact}", *(f"S{k}, M{k}" for k in range(len(self.pairs)))]
         lines += [self.model, *self.steps]
         return "\n".join(line for line in lines if line) + "\n"
+
+
+def shell_on_block(kind, unit, pressure):
+    """A plate of shells, 0.2 thick, that lies on a block and is held by it alone; S4, S8 or S8R."""
+    top, block = lambda x, y, z: abs(z - 0.8) < SAME, box((0, 0, 0), (1, 1, 0.8), (5, 5, 4))
+    solid = box((0, 0, 0.9), (1, 1, 1), (4, 4, 1))
+    solid = solid if kind == "S4" else quadratic(solid)
+    cells = solid.cells[:, [0, 1, 2, 3] if kind == "S4" else [0, 1, 2, 3, 8, 9, 10, 11]]
+    used = np.unique(cells)
+    number_of, first, first_cell = {node: k + 1 for k, node in enumerate(used)}, len(used) + 1, len(cells) + 1
+    lines = ["*NODE", *(f"{number_of[n]}, " + ", ".join(map(number, solid.points[n])) for n in used)]
+    lines += [f"*ELEMENT, TYPE={kind}, ELSET=PLATE"]
+    lines += [", ".join(map(str, [k + 1, *(number_of[n] for n in cell)])) for k, cell in enumerate(cells)]
+    lines += ["*NODE", *(f"{n + first}, " + ", ".join(map(number, place)) for n, place in enumerate(block.points))]
+    lines += ["*ELEMENT, TYPE=C3D8, ELSET=BLOCK"]
+    lines += [", ".join(map(str, [k + first_cell, *(cell + first)])) for k, cell in enumerate(block.cells)]
+    lines += ["*MATERIAL, NAME=M", f"*ELASTIC\n{1000 * unit}, 0.", "*SHELL SECTION, ELSET=PLATE, MATERIAL=M\n0.2",
+              "*SOLID SECTION, ELSET=BLOCK, MATERIAL=M", "*SURFACE, NAME=S, TYPE=ELEMENT\nPLATE, SNEG", "*SURFACE, NAME=M, TYPE=ELEMENT"]
+    lines += [f"{cell + first_cell}, S{face + 1}" for cell, face in block.faces(top)]
+    lines += ["*SURFACE INTERACTION, NAME=SI\n*FRICTION\n0.3, 1000.", "*CONTACT PAIR, INTERACTION=SI, TYPE=STICKSLIP\nS, M"]
+    lines += ["*STEP", "*STATIC\n1., 1.", CONTROLS, "*BOUNDARY"]
+    lines += [f"{n + first}, 1, 3" for n in block.nodes(lambda x, y, z: abs(z) < SAME)]
+    return "\n".join([*lines, f"*DLOAD\nPLATE, P, {-pressure}", "*END STEP"]) + "\n"
