@@ -221,7 +221,8 @@ def main():
             run(arguments.cmake, "--build", own)
             two_blocks(name, [own / "two_blocks"], driver, folder)
         for name, module, example in (("numpy", "numpy", "numpy_blocks.py"), ("FEniCSx", "dolfinx", "fenicsx_blocks.py"),
-                                      ("scikit-fem", "skfem", "scikit_fem_blocks.py"), ("FElupe", "felupe", "felupe_blocks.py"),
+                                      ("scikit-fem", "skfem", "scikit_fem_blocks.py"), ("SfePy", "sfepy", "sfepy_blocks.py"),
+                                      ("FElupe", "felupe", "felupe_blocks.py"),
                                       ("petsc4py", "petsc4py", "petsc4py_block.py")):
             python = python_with(module, build)
             if python is None:
