@@ -174,14 +174,13 @@ def friction(program, driver, out):
     mesh = meshio.read(out / "driver/step_4.vtu")
     rows, displacements = run.nodes(), mesh.point_data["displacement"]
     multipliers = mesh.point_data["multiplier_contact"]
-    upper = mesh.points[:, 2] > 0.8 - SAME  # both bodies have nodes on the interface: those of the upper one carry multipliers
     worst = {"displacements": 0.0, "multipliers": 0.0}
     for row in rows:
         near = np.flatnonzero(np.abs(mesh.points - row[3:6]).max(axis=1) < SAME)
         worst["displacements"] = max(worst["displacements"], np.abs(displacements[near] - row[6:9]).max(axis=1).min())
         if row[1] == 1:
             worst["multipliers"] = max(worst["multipliers"], np.abs(multipliers[near] - row[12:15] / UNIT).max(axis=1).min())
-    assert upper.any() and len(rows) == 25 + 36
+    assert len(rows) == 25 + 36
     judge("friction: displacements against the driver", worst["displacements"] / np.abs(displacements).max(), FRICTION)
     judge("friction: multipliers against the driver", worst["multipliers"] / np.abs(multipliers).max(), FRICTION)
     print(f"        gap, stick, slip: {run.states()}; of the driver {counts}")

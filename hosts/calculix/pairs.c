@@ -19,7 +19,8 @@ static const double SAME_PLANE = 1e-6;
 static const double CUT = 0.5;
 
 static Pair *pairs;
-static ITG n_pairs, n_multipliers, refused, rejected_commits;
+static ITG n_pairs, n_multipliers, rejected_commits;
+static ITG refused; /* something in this iteration: nothing is evaluated until it is judged */
 static ITG values_per_node;
 /* What two unknowns stand for. */
 static ITG term_equation[2][PAIRS_MOST_TERMS];
@@ -166,7 +167,6 @@ void pairs_begin(const PairsModel *m, PairsNumbers numbers) {
 
 void pairs_forces(double *b, const double *v, PairsNumbers numbers) {
   pairs_number(numbers, values_per_node);
-  refused = 0;
   for (ITG i = 0; i < n_pairs && !refused; i++) {
     Pair *p = &pairs[i];
     for (ITG s = 0; s < SIDES; s++) pairs_positions(&p->side[s], v);
@@ -253,6 +253,7 @@ void pairs_judge(ITG iteration, ITG *iflagact, double *qa) {
   }
   if (n_pairs && !balanced) *iflagact = 1;
   if (refused || (n_pairs && !balanced && iteration >= MOST_ITERATIONS)) qa[2] = CUT;
+  refused = 0;
 }
 
 /* --- Results --------------------------------------------------------------------------------------------------------- */

@@ -11,6 +11,8 @@ from .results import State, States
 from .skin import Integers, Reals
 
 _COLOURS = {State.GAP: "0.75", State.STICK: "tab:blue", State.SLIP: "tab:orange"}
+# Along the longest axis.
+_TICKS = 6
 _NUMBERS = ("pressure", "traction", "gap", "slip", "coverage", "area", "dissipation", "augmentation", "share")
 
 
@@ -29,8 +31,8 @@ def drawn(positions: Reals, facets: list[Integers], states: States, what: str, a
         _add(axes, faces, solid, facecolors="0.95", colors="0.8")
         for state in State:
             nodes = positions[states.bearing & (states.state == state)]
-            axes.scatter(*nodes.T, color=_COLOURS[state], label=f"{state.name.lower()} ({len(nodes)})", depthshade=False) if solid else \
-                axes.scatter(*nodes.T, color=_COLOURS[state], label=f"{state.name.lower()} ({len(nodes)})", zorder=3)
+            axes.scatter(*nodes.T, color=_COLOURS[state], label=f"{state.name.lower()} ({len(nodes)})", zorder=3,
+                         **({"depthshade": False} if solid else {}))
         axes.legend()
     else:
         values = np.asarray(getattr(states, what), dtype=np.float64)
@@ -41,6 +43,7 @@ def drawn(positions: Reals, facets: list[Integers], states: States, what: str, a
     margin = 0.1 * (high - low).max()
     for name, a, b in zip("xyz", low - margin, high + margin):
         axes.set(**{f"{name}lim": (a, b), f"{name}label": name})
+        axes.locator_params(axis=name, nbins=max(1, round(_TICKS * (b - a) / (high - low + 2 * margin).max())))
     if solid:
         axes.set_box_aspect(high - low + 2 * margin)
     else:
