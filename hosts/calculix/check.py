@@ -283,10 +283,10 @@ def ring(program, out):
     def solved(name, contact, interaction, factor):
         shaft, hub = sector(bore, fit, (4 * factor, 11 * factor, 1)), sector(fit, outside, (6 * factor, 8 * factor, 1))
         deck = Deck([(shaft, hot), (hub, plastic)], [((0, circle(fit)), (1, circle(fit)))], contact, interaction, [], suffix="R")
-        anywhere = lambda *_: True  # noqa: E731
         lines = ["*BOUNDARY"]
         for k in (0, 1):
-            lines += [deck.fixed(k, anywhere, 3), deck.fixed(k, lambda x, y, z: abs(x) < SAME, 1), deck.fixed(k, lambda x, y, z: abs(y) < SAME, 2)]
+            for component, where in ((3, lambda *_: True), (1, lambda x, y, z: abs(x) < SAME), (2, lambda x, y, z: abs(y) < SAME)):
+                lines.append(deck.fixed(k, where, component))
         sets = [f"*NSET, NSET={label}\n" + "\n".join(map(str, deck.numbers(1, where)))
                 for label, where in (("CUT", lambda x, y, z: abs(y) < SAME), ("OUTER", circle(outside)))]
         deck.model = "\n".join([*sets, "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nN0, 0.\nN1, 0."])

@@ -7,6 +7,7 @@ from bodies import Blocks
 
 matplotlib = pytest.importorskip("matplotlib")
 matplotlib.use("Agg")
+plt = pytest.importorskip("matplotlib.pyplot")
 # A drawn picture; an empty one has a tenth of it.
 PICTURE_BYTES = 10_000
 
@@ -46,7 +47,7 @@ def test_lines_and_axes_that_are_there():
     x = contact.start()
     x[contact.n_host + 1 :: 2] = -1.0
     states = contact.states(x)[0]
-    figure, axes = matplotlib.pyplot.subplots()
+    axes = plt.figure().add_subplot()
     assert contact.plot(x, states, axes=axes) is axes and len(axes.collections[0].get_segments()) == 2
     assert contact.plot(x, states, "state").get_legend() is not None
 
