@@ -47,7 +47,7 @@ help:
 	@echo "make fuzz    fuzz the pair kernel, the handle, its effects and the C ABI, a quarter of an hour each (FUZZ_SECONDS=)"
 	@echo "make wheel   the Python package as a wheel, in $(BUILD)/wheels"
 	@echo "make python-examples   its examples, with the libraries they need, in an environment below $(BUILD)/"
-	@echo "make hosts   programs on deal.II, MFEM, scikit-fem, FElupe and petsc4py: installs these, compares them with the driver; hosts/README.md"
+	@echo "make hosts   programs on deal.II, MFEM, scikit-fem, FElupe, SfePy, petsc4py, and in CalculiX: installs these, compares them with the driver; hosts/README.md"
 	@echo "make newcomer   what the documents tell a new user to type, typed in an empty place, with its time (NAMES='python ...')"
 	@echo "make packages   crate, Debian packages, recipes of Spack and conda-forge, in $(BUILD)/packages; packaging/README.md"
 	@echo "make build   build the library and the examples into $(BUILD)/"
@@ -223,7 +223,7 @@ hosts:
 	@test -x $(BUILD)/hosts/python/bin/pip || $(PYTHON) -m venv $(BUILD)/hosts/python
 	@$(BUILD)/hosts/python/bin/pip install -q --no-deps mfem
 	@$(BUILD)/hosts/python/bin/pip install -q cffi numpy scipy scikit-fem felupe 2>/dev/null
-	@$(PYTHON) hosts/check.py --build $(BUILD)
+	@$(PYTHON) hosts/check.py --build $(BUILD) --calculix
 	@STICKSLIP_LIBRARY=$(abspath $(BUILD))/lib/libstickslip.so $(PYTHON) -m pytest -q -rs -p no:cacheprovider python/tests/test_petsc4py.py
 
 # Of the committed tree: it clones it, and builds the library as a user does.

@@ -30,7 +30,7 @@ write_basic_package_version_file(stickslip-config-version.cmake COMPATIBILITY ${
 
 # Where a project around this one has installed files before, the list begins after them.
 install(CODE "list(LENGTH CMAKE_INSTALL_MANIFEST_FILES stickslip_first)")
-install(FILES include/stickslip.h include/stickslip.f90 DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+install(FILES include/stickslip.h include/stickslip.hpp include/stickslip.f90 DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 install(FILES "${STICKSLIP_SHARED}" DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 install(FILES ${STICKSLIP_LINKS} "${STICKSLIP_STATIC}" DESTINATION "${CMAKE_INSTALL_LIBDIR}")

@@ -10,10 +10,12 @@ from numpy.typing import ArrayLike
 from . import _arrays
 from ._arrays import given, output
 from ._pair import Pair
+from ._rigid_nodes import RigidNodes
 from .errors import InvalidSize, InvalidValue
 from .interface import Interface
 from .options import Options, with_options
 from .results import Gradient, States
+from .rigid import RigidBody
 from .skin import Facets, Integers, Reals
 from .surface import Surface
 
@@ -69,6 +71,9 @@ class Contact:
         if self.dofs.max() >= self._n_inner:
             raise InvalidValue(f"size: {size}, and dofs has {self.dofs.max()}; at least {self.dofs.max() + 1} is needed")
         self.condensed = condensed
+        # Of each node's displacements: those of the host, or behind them those of nodes without unknowns of their own.
+        self._numbers: Integers = self.dofs.copy() if self._map is None else np.arange(self.X.size).reshape(self.X.shape)
+        self._rigid = RigidNodes()
         self._pairs: list[Pair] = []
         self._start: Reals | None = None
         self._at: Reals | None = None
@@ -90,10 +95,35 @@ class Contact:
         """
         if self._start is not None:
             raise InvalidValue("add: all interfaces are needed before start")
-        numbers = self.dofs if self._map is None else np.arange(self.X.size).reshape(self.X.shape)
-        self._pairs.append(Pair(self.X, numbers, self._n_inner + self.n_multipliers, (facets1, facets2), crease=crease,
+        self._pairs.append(Pair(self.X, self._numbers, self._n_inner + self.n_multipliers, (facets1, facets2), crease=crease,
                                 held=np.asarray(held, dtype=np.int64).ravel(), condensed=self.condensed, options=dict(options)))
         return self
+
+    def rigid(self, nodes: ArrayLike, point: ArrayLike, unknowns: ArrayLike) -> RigidBody:
+        """Nodes that move as one body, before any interface is added: :meth:`add` takes facets of them as of others.
+
+        Loads of the body are the host's: forces and moments in the rows of its unknowns. A rotation is a rotation vector, at most
+        pi long since the last :meth:`turn`.
+
+        Parameters
+        ----------
+        nodes : their numbers; ``dofs`` has -1 for all their displacements
+        point : (3,) or (2,), the body's reference point in the first configuration, anywhere [L]. Moments are about it.
+        unknowns : (6,) or (3,), which of the host's unknowns are the point's displacement and the body's rotation. All are unknowns:
+            prescribe them by ``fixed`` of :func:`stickslip.newton`.
+        """
+        if self._pairs or self._map is not None or self.condensed:
+            raise InvalidValue("rigid: needs dofs that are displacements of nodes, multipliers among the unknowns, and comes before add")
+        body = self._rigid.add(self.X, self._numbers, nodes, point, unknowns, (self.n_host, self._n_inner))
+        self._n_inner += body.coordinates.size
+        return body
+
+    def turn(self, x: Reals) -> None:
+        """After a commit: takes the rotations of rigid bodies into the bodies, and sets them to 0 in x. For bodies that turn on and on."""
+        self._displacements(x)
+        for body in self._rigid.bodies:
+            body.turn()
+            x[body.equations] = body.unknowns
 
     @property
     def interfaces(self) -> list[Interface]:
@@ -147,7 +177,8 @@ class Contact:
                 force1, force2, row = pair.face.residual(x1, x2, lam)
                 pair.spread(inner, force1, force2)
                 rows.append(row[pair.mask])
-        r[: self.n_host] += inner if self._map is None else self._map.T @ inner
+        r[: self.n_host] += inner[: self.n_host] if self._map is None else self._map.T @ inner
+        self._rigid.resultants(inner, r)
         if not self.condensed:
             r[self.n_host :] += np.concatenate(rows)
         self._at = x.copy()
@@ -162,13 +193,35 @@ class Contact:
         if self.condensed:
             return self._condense(self._points(x), K)
         size = self._n_inner + self.n_multipliers
-        total = sum((pair.tangent(point, size) for pair, point in self._points(x)), scipy.sparse.csr_matrix((size, size)))
+        points = self._points(x)
+        total = sum((pair.tangent(point, size) for pair, point in points), scipy.sparse.csr_matrix((size, size)))
+        if self._rigid.bodies:
+            inner = np.zeros(self._n_inner)
+            for pair, point in points:
+                pair.spread(inner, *pair.face.residual(*point)[:2])
+            total = self._rigid.reduced(total, inner, self.n_host, self._n_inner)
         if self._map is not None:
             wide = scipy.sparse.block_diag([self._map, scipy.sparse.identity(self.n_multipliers)], "csr")
             total = wide.T @ total @ wide
         if K is not None:
             total = total + _grown(scipy.sparse.csr_matrix(K), self.n_host, self.size)
         return total.tocsr()
+
+    def add_to(self, matrix: Any, x: Reals, numbers: ArrayLike | None = None) -> None:
+        """Adds the share of contact to a matrix of petsc4py, which is assembled afterwards: ``matrix.assemble()``.
+
+        The places are those of a plan, the same in each call until surfaces slide on: give the matrix room for them, or
+        ``matrix.setOption(PETSc.Mat.Option.NEW_NONZERO_ALLOCATION_ERR, False)``.
+
+        Parameters
+        ----------
+        matrix : petsc4py.PETSc.Mat
+        numbers : (size,), the row of the matrix of each unknown; -1: none, as of prescribed ones. Without it they are the same. On several
+            processes those of this process or others: PETSc sends entries where they belong.
+        """
+        from ._petsc import added
+
+        added(matrix, self.tangent(x), np.arange(self.size) if numbers is None else given("numbers", numbers, (self.size,), np.int64))
 
     def _condense(self, points: list[tuple[Pair, Point]], K: Any) -> scipy.sparse.csr_matrix:
         if K is None:
@@ -198,6 +251,20 @@ class Contact:
     def surface(self, x: Reals, states: States, interface: int = 0) -> Any:
         """The first side of an interface as x has it, a mesh of meshio with what ``states`` say of its nodes: ``.write("contact.vtu")``."""
         return self._pairs[interface].mesh(self._displacements(x), states)
+
+    def plot(self, x: Reals, states: States, what: str = "pressure", interface: int = 0, axes: Any = None) -> Any:
+        """Draws the first side of an interface as x has it, by matplotlib, and gives the axes: ``contact.plot(...).figure.savefig(file)``.
+
+        Parameters
+        ----------
+        states : of this interface, of :meth:`states` or :class:`stickslip.Step`
+        what : "state", which colours nodes, or a number of :class:`stickslip.States` that colours facets; of vectors the length
+        axes : where to draw, of projection "3d" in space; without it a new figure
+        """
+        from ._drawing import drawn
+
+        pair = self._pairs[interface]
+        return drawn(pair.positions(self._displacements(x))[0], pair.facets1, states, what, axes)
 
     def commit(self, x: Reals) -> None:
         """Accepts a converged step: all interfaces do, or none."""
@@ -231,8 +298,8 @@ class Contact:
     def adjoint(self, x: Reals, a: Reals, wanted: tuple[str, ...]) -> tuple[list[Gradient], Reals]:
         """Products of a vector with the derivatives of the contacts' residual: :meth:`stickslip.Interface.adjoint` of each interface with
         the members ``wanted``; and previous1 and previous2, where both are among them, in a vector of the host's: B^T a."""
-        if self.condensed:
-            raise InvalidValue("adjoint: needs multipliers among the unknowns, not condensed")
+        if self.condensed or self._rigid.bodies:
+            raise InvalidValue("adjoint: needs multipliers among the unknowns, not condensed, and no rigid bodies")
         inner = a[: self.n_host] if self._map is None else self._map @ a[: self.n_host]
         behind, last, products = np.zeros(self._n_inner), self.n_host, []
         for pair, point in self._points(x):
@@ -266,18 +333,19 @@ class Contact:
 
     def step_limit(self, x: Reals, step: Reals) -> float:
         """How much of a change of all unknowns may be taken before surfaces lie in each other, at most 1."""
-        u, moved = self._displacements(x), self._displacements(step)
-        limits = [1.0]
+        end = self._displacements(x + step)
+        u, limits = self._displacements(x), [1.0]
         for pair in self._pairs:
             x1, x2 = pair.positions(u)
-            end1, end2 = pair.positions(u + moved)
+            end1, end2 = pair.positions(end)
             limits.append(pair.face.step_limit(x1, x2, end1 - x1, end2 - x2))
         return min(limits)
 
     def unknowns_of_sides(self) -> list[tuple[Integers, Integers]]:
         """The host's unknowns at the nodes of both sides of each interface; -1: none."""
         if self._map is None:
-            return [(pair.equations1, pair.equations2) for pair in self._pairs]
+            return [(self._rigid.owners(pair.equations1, self.n_host), self._rigid.owners(pair.equations2, self.n_host))
+                    for pair in self._pairs]
         column = np.append(self._map.indices, -1)[np.where(np.diff(self._map.indptr) > 0, self._map.indptr[:-1], -1)]
         return [(column[pair.equations1], np.where(pair.equations2 < 0, -1, column[pair.equations2])) for pair in self._pairs]
 
@@ -301,7 +369,9 @@ class Contact:
         if self._map is not None:
             out: Reals = (self._map @ x[: self.n_host]).reshape(self.X.shape)
             return out
-        return np.where(self.dofs < 0, 0.0, x[self.dofs])
+        placed: Reals = np.where(self.dofs < 0, 0.0, x[self.dofs])
+        self._rigid.place(x, self.X, placed)
+        return placed
 
     def _points(self, x: Reals) -> list[tuple[Pair, Point]]:
         """Each interface with positions and multipliers. Condensed ones are those of the last residual, at this x."""

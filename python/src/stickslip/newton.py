@@ -116,7 +116,7 @@ class _Run:
 
         r, own = self.evaluate(x)
         K = scipy.sparse.csr_matrix(self.host_tangent(x[: self.n]))
-        self.bodies: Integers = connected_components(K, directed=False)[1]
+        self.bodies: Integers = connected_components(K + self.contact._rigid.links(self.n), directed=False)[1]
         self.closing = Closing(self.contact, self.bodies, self.fixed)
         self.closing.begin(x, closing)
         for iteration in range((2 if self.closing.active else 1) * most + 1):
