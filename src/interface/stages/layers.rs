@@ -1,22 +1,27 @@
 //! Layers of the mortar surface over a non-mortar facet: mortar facets that are paired with it and lie over each other.
-//! Their gaps would be added up, and each of them would be given the facet's force.
+//! Their gaps would be added up, and each of them would be given the facet's force. So a commit settles which of them are
+//! pairs: the nearest ones (docs/formulation.md 6.6).
 //!
 //! The mortar facets over one non-mortar facet fall into sheets, joined by common nodes. Bodies side by side are several
 //! sheets, too, so that what counts is the area that two sheets both cover: of polygons in the facet's plane, exact,
 //! where a coverage by quadrature has the error of its rule. A sheet lies over itself only where its polygons have more
 //! area than the facet.
 
+use super::acting::acting;
 use crate::adjacency::root;
 use crate::error::{Error, Kind, Result};
-use crate::geometry::Vec2;
+use crate::geometry::bilinear_map::BilinearMap;
 use crate::geometry::clip::{self, Polygon};
+use crate::geometry::{Projection, Vec2, Vec3};
 use crate::interface::data::active::Active;
 use crate::interface::data::options::Options;
 use crate::interface::data::pairs::PairRecord;
-use crate::interface::data::surface::Surface;
+use crate::interface::data::surface::{NO_FACET, Surface};
 use crate::interface::pairing::filter::Filter;
+use crate::interface::pairing::hidden::Hidden;
 use crate::interface::pairing::overlaps::FacetOverlaps;
-use crate::interface::pairing::work::Room;
+use crate::interface::pairing::stacked::{TOGETHER, stacked};
+use crate::interface::pairing::work::{Room, Work};
 use crate::memory::{self, Store};
 use crate::mortar::{NonmortarFrame, Segment};
 use crate::simd::Plain;
@@ -26,46 +31,67 @@ use std::ops::Range;
 /// this of the facet. Parts side by side whose meshes do not match along a curve share less: a polygon of 12 edges lacks
 /// 4.5 % of its circle.
 pub const SHARED: f64 = 0.05;
+/// A facet is hidden where nearer ones lie over more than this of it: then less is lost than would be covered twice.
+const MOST: f64 = 0.5;
+/// What is hidden hides nothing, so that one layer after the other is settled, from the nearest on: at most so many.
+const LAYERS: usize = 16;
 /// Overlaps below this, over the smaller facet's area, are rounding of facets that touch: of positions a million facets
 /// from the origin, with four digits to spare.
 const SLIVER: f64 = 1e-6;
 /// A facet's area as two ways of reckoning it find it differs by less than this: rounding of coordinates a million facets from
 /// the origin, with six digits to spare.
 const DIFFERENT: f64 = 1e-4;
-/// Facets closer than this, over the size of the smaller one, lie on each other: rounding of a rotated mesh is 1e-16 of
-/// its extent.
-const TOGETHER: f64 = 1e-8;
 
-/// Two mortar facets that lie over each other under a non-mortar one.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Mortar facets that lie over each other under one non-mortar facet.
+#[derive(Debug)]
 pub struct Layers {
     /// The non-mortar facet.
     pub under: usize,
-    /// The mortar facets.
-    pub facets: [usize; 2],
-    /// Their distance along the non-mortar facet's normal, in the middle of their overlap `[L]`; 0 within rounding.
-    pub apart: f64,
+    /// Those that nearer ones hide.
+    hidden: Vec<usize>,
+    /// Two of which none is nearer.
+    together: Option<[usize; 2]>,
 }
 
-/// Refuses a mortar surface that lies in layers.
-pub fn refuse(surfaces: (&Surface, &Surface), by: (&Options, &Filter), room: &mut Room, at: &Active) -> Result<()> {
-    let Some(found) = find(surfaces, by, room, at)?.next() else { return Ok(()) };
-    let Layers { under, facets, apart } = found?;
-    let (under, [a, b]) = (surfaces.0.host_facet(under), facets.map(|f| surfaces.1.host_facet(f)));
-    let text = if apart > 0.0 {
-        text!(
-            "the mortar surface lies in layers over non-mortar facet {under}: mortar facets {a} and {b} lie over each other, {apart:.3e} apart; set search_distance below their distance, or leave the farther ones out"
-        )
-    } else {
-        text!(
-            "the mortar surface lies in layers over non-mortar facet {under}: mortar facets {a} and {b} lie on each other, in one place; leave one of them out"
-        )
-    };
-    Err(Error::new(Kind::InvalidValue, text))
+/// Settles which mortar facets are hidden in the step that follows, of the pairs at (x1, x2) with a filter that hides none, and
+/// leaves the others. What is there after a refusal means nothing.
+pub fn settle(
+    surfaces: (&Surface, &Surface),
+    options: &Options,
+    filter: &mut Filter,
+    work: &mut Work,
+    (x1, x2): (&[Vec3], &[Vec3]),
+    active: &mut Active,
+) -> Result<()> {
+    let mut hidden = Hidden::default();
+    for layers in find(surfaces, (options, filter), &mut work.room, active)? {
+        let Layers { under, hidden: facets, together } = layers?;
+        if let Some(both) = together {
+            let (under, [a, b]) = (surfaces.0.host_facet(under), both.map(|f| surfaces.1.host_facet(f)));
+            let text = text!(
+                "the mortar surface lies in layers over non-mortar facet {under}: mortar facets {a} and {b} lie on each other, in one place, so that none is nearer; leave one of them out"
+            );
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+        hidden.pairs.store_all(facets.iter().map(|&j| (under as u32, j as u32)))?;
+    }
+    let Filter::Facets(facets) = filter else { return Ok(()) };
+    if hidden.pairs.is_empty() {
+        return Ok(());
+    }
+    hidden.stacked = stacked(facets, work.tree.at(surfaces.1, x2)?)?;
+    for (pair, area) in active.pairs.iter().zip(&active.areas) {
+        let numbers = (pair.one as u32, pair.two as u32);
+        let is_stacked = hidden.stacked[pair.two] != [NO_FACET; 2] && *area > 0.0;
+        if is_stacked && hidden.pairs.binary_search(&numbers).is_err() {
+            hidden.kept.store(numbers)?;
+        }
+    }
+    facets.hidden = hidden;
+    acting(surfaces, options, filter, work, (x1, x2), active)
 }
 
-/// One pair of mortar facets for each non-mortar facet that has layers over it. None against an analytic mortar side,
-/// which has no overlaps.
+/// One for each non-mortar facet that has layers over it. None against an analytic mortar side, which has no overlaps.
 pub fn find<'a>(
     (one, two): (&'a Surface, &'a Surface),
     by: (&'a Options, &'a Filter),
@@ -113,7 +139,8 @@ impl Sheets<'_> {
         overlaps.find((one, two), by, at, places)?;
         let (frame, segments) = (overlaps.frame(), &overlaps.segments[..]);
         let is_twice = covered > (1.0 + SHARED) * (0.5 * frame.projection.area2);
-        if is_several || is_twice { among(frame, (pairs, segments), self.of, is_twice) } else { Ok(None) }
+        let at = Over { surfaces: (one, two), frame, pairs, segments };
+        if is_several || is_twice { at.layers(self.of, is_twice) } else { Ok(None) }
     }
 
     /// Joins the pairs of a non-mortar facet that have an area; whether there are several sheets.
@@ -155,49 +182,117 @@ struct Shared {
     centre: Vec2,
 }
 
-/// Layers among the mortar facets over one non-mortar facet; those of one sheet are compared where `is_twice`.
-fn among(
-    frame: &NonmortarFrame,
-    (pairs, segments): (&[PairRecord], &[Segment]),
-    of: &mut [usize],
-    is_twice: bool,
-) -> Result<Option<Layers>> {
-    let mut areas = memory::filled(0.0, pairs.len())?;
-    let mut regions = memory::with_room(pairs.len())?;
-    for (pair, segment) in segments.iter().enumerate().filter(|(_, s)| s.area > 0.0) {
-        // Points in place of an overlap have no polygon.
-        let polygon = match segment.points {
-            None => segment.polygon.clone(),
-            Some(_) => clip::overlap::<Plain>(&frame.projection, &segment.mortar),
+/// One of two lies nearer where both cover the plane.
+struct Order {
+    nearer: usize,
+    farther: usize,
+    area: f64,
+    /// None of them does.
+    is_together: bool,
+}
+
+/// The mortar facets over one non-mortar facet.
+struct Over<'a> {
+    surfaces: (&'a Surface, &'a Surface),
+    frame: &'a NonmortarFrame,
+    pairs: &'a [PairRecord],
+    segments: &'a [Segment],
+}
+
+impl Over<'_> {
+    /// Layers among them; those of one sheet are compared where `is_twice`.
+    fn layers(&self, of: &mut [usize], is_twice: bool) -> Result<Option<Layers>> {
+        let Over { frame, pairs, segments, .. } = *self;
+        let (mut own, mut areas) = (memory::filled(0.0, pairs.len())?, memory::filled(0.0, pairs.len())?);
+        let mut regions = memory::with_room(pairs.len())?;
+        for (pair, segment) in segments.iter().enumerate().filter(|(_, s)| s.area > 0.0) {
+            // Points in place of an overlap have no polygon.
+            let polygon = match segment.points {
+                None => segment.polygon.clone(),
+                Some(_) => clip::overlap::<Plain>(&frame.projection, &segment.mortar),
+            };
+            let sheet = root(of, pair);
+            own[pair] = polygon.area();
+            areas[sheet] += own[pair];
+            let bound = |pick: fn(f64, f64) -> f64, from: f64| {
+                polygon.vertices().iter().fold(Vec2::repeat(from), |b, v| b.zip_map(v, pick))
+            };
+            let (low, high) = (bound(f64::min, f64::INFINITY), bound(f64::max, f64::NEG_INFINITY));
+            regions.store(Region { pair, sheet, polygon, low, high })?;
+        }
+        let shared = overlaps(&regions, segments, is_twice)?;
+        let least = SHARED * (0.5 * frame.projection.area2);
+        let all = shared.iter().map(|s| s.area).sum::<f64>() > least;
+        let shared = memory::sorted(&shared, |s, t| (s.sheets, s.pairs).cmp(&(t.sheets, t.pairs)))?;
+        let sheets = || shared.chunk_by(|s, t| s.sheets == t.sheets);
+        let at_most = |[a, b]: [usize; 2]| if a == b { least } else { SHARED * areas[a].min(areas[b]) };
+        let are_layers = |both: &&[Shared]| {
+            let [a, b] = both[0].sheets;
+            all || a != b && both.iter().map(|s| s.area).sum::<f64>() > at_most([a, b])
         };
-        let sheet = root(of, pair);
-        areas[sheet] += polygon.area();
-        let bound = |pick: fn(f64, f64) -> f64, from: f64| {
-            polygon.vertices().iter().fold(Vec2::repeat(from), |b, v| b.zip_map(v, pick))
-        };
-        let (low, high) = (bound(f64::min, f64::INFINITY), bound(f64::max, f64::NEG_INFINITY));
-        regions.store(Region { pair, sheet, polygon, low, high })?;
+        let mut orders = Vec::new();
+        for s in sheets().filter(are_layers).flatten() {
+            orders.store(self.order(s))?;
+        }
+        if orders.is_empty() {
+            return Ok(None);
+        }
+        let (mut is_hidden, mut lost) = (memory::filled(false, pairs.len())?, Vec::new());
+        for _ in 0..LAYERS {
+            memory::refill(&mut lost, 0.0, pairs.len())?;
+            for o in orders.iter().filter(|o| !o.is_together && !is_hidden[o.nearer]) {
+                lost[o.farther] += o.area;
+            }
+            let hides = |p: usize| lost[p] > MOST * own[p];
+            if (0..pairs.len()).all(|p| is_hidden[p] == hides(p)) {
+                break;
+            }
+            (0..pairs.len()).for_each(|p| is_hidden[p] = hides(p));
+        }
+        let mut hidden = Vec::new();
+        hidden.store_all((0..pairs.len()).filter(|&p| is_hidden[p]).map(|p| pairs[p].two))?;
+        let mut together = None;
+        let mut orders = orders.iter();
+        for both in sheets().filter(are_layers) {
+            let on_each_other = |o: &&Order| o.is_together && !is_hidden[o.nearer] && !is_hidden[o.farther];
+            let these = orders.by_ref().take(both.len()).filter(on_each_other);
+            let (mut area, mut largest) = (0.0, None::<&Order>);
+            for o in these {
+                area += o.area;
+                largest = largest.filter(|l| l.area >= o.area).or(Some(o));
+            }
+            if let Some(o) = largest.filter(|_| area > at_most(both[0].sheets)) {
+                together = together.or(Some([o.nearer, o.farther].map(|p| pairs[p].two)));
+            }
+        }
+        Ok(Some(Layers { under: pairs[0].one, hidden, together }))
     }
-    let shared = overlaps(&regions, segments, is_twice)?;
-    let area = 0.5 * frame.projection.area2;
-    let covered_twice: f64 = shared.iter().map(|s| s.area).sum();
-    let shared = memory::sorted(&shared, |s, t| (s.sheets, s.pairs).cmp(&(t.sheets, t.pairs)))?;
-    let layers = shared.chunk_by(|s, t| s.sheets == t.sheets).find(|both| {
-        let [a, b] = both[0].sheets;
-        a != b && both.iter().map(|s| s.area).sum::<f64>() > SHARED * areas[a].min(areas[b])
-    });
-    let most = |shared: &[Shared]| shared.iter().max_by(|s, t| s.area.total_cmp(&t.area)).map(|s| (s.pairs, s.centre));
-    let found = match layers {
-        Some(layers) => most(layers),
-        None if covered_twice > SHARED * area => most(&shared),
-        None => None,
-    };
-    let Some((both, centre)) = found else { return Ok(None) };
-    let [a, b] = both.map(|p| height(&segments[p], centre));
-    let size = both.map(|p| segments[p].mortar.size).into_iter().fold(frame.projection.size, f64::min);
-    let apart = (a - b).abs();
-    let apart = if apart > TOGETHER * size { apart } else { 0.0 };
-    Ok(Some(Layers { under: pairs[0].one, facets: both.map(|p| pairs[p].two), apart }))
+
+    /// Which of the two that share a part of the plane is the nearer one, by their gaps in the middle of this part: the
+    /// smaller one without its sign. Of a gap and an overlap that are as large the overlap.
+    fn order(&self, s: &Shared) -> Order {
+        let [(p, a), (q, b)] = s.pairs.map(|p| (p, self.gap(p, s.centre)));
+        let size = s.pairs.iter().fold(self.frame.projection.size, |size, &p| size.min(self.segments[p].mortar.size));
+        let is_first = (a.abs(), a) <= (b.abs(), b);
+        let (nearer, farther) = if is_first { (p, q) } else { (q, p) };
+        Order { nearer, farther, area: s.area, is_together: (a - b).abs() <= TOGETHER * size }
+    }
+
+    /// The gap to the mortar facet of a pair, along the normal, at a point of the plane that it covers `[L]`.
+    fn gap(&self, pair: usize, at: Vec2) -> f64 {
+        let ((one, two), PairRecord { one: i, two: j, .. }) = (self.surfaces, &self.pairs[pair]);
+        let (frame, segment) = (self.frame, &self.segments[pair]);
+        let own = |k: usize, d: f64| one.offset(one.facets[*i].of_corner(k)) - d;
+        let other = |k: usize, d: f64| two.offset(two.facets[*j].of_corner(k)) + d;
+        value(&frame.projection, &frame.map, at, &own) + value(&segment.mortar, &segment.mortar_map, at, &other)
+    }
+}
+
+/// What a field is at a point of a projected facet, of its corners' values, which follow from their place and their height.
+fn value(facet: &Projection, map: &BilinearMap, at: Vec2, of: &dyn Fn(usize, f64) -> f64) -> f64 {
+    let p = map.inverse([at.x, at.y]);
+    let n = facet.shape.values(p.xi, p.eta);
+    (0..facet.shape.n).map(|k| n[k] * of(facet.node[k], facet.d[k])).sum()
 }
 
 /// Overlaps of regions of different sheets, and of the same one where `within`: only of those whose boxes overlap, found
@@ -228,11 +323,4 @@ fn overlaps(regions: &[Region], segments: &[Segment], within: bool) -> Result<Ve
         }
     }
     Ok(shared)
-}
-
-/// Height of a mortar facet over the plane, at a point that it covers `[L]`.
-fn height(segment: &Segment, at: Vec2) -> f64 {
-    let p = segment.mortar_map.inverse([at.x, at.y]);
-    let n = segment.mortar.shape.values(p.xi, p.eta);
-    (0..segment.mortar.shape.n).map(|k| n[k] * segment.mortar.d[k]).sum()
 }
