@@ -81,6 +81,16 @@ fn a_second_wall_behind_the_first_is_not_seen() {
     }
 }
 
+/// Edges of facets lie above each other but for rounding: what a facet touches by a sliver is not under it.
+#[test]
+fn walls_of_the_same_mesh_are_told_apart() {
+    let one = grid(3, 2, [0.3, 0.3], [1.2, 0.9], 0.0, false, Cells::Quads);
+    let wall = |b: f64, n: usize, z: f64| grid(n, 4, [0.0, 0.0], [b, 1.2], z, true, Cells::Quads);
+    let walls = [wall(5.1, 17, 0.0), wall(4.8, 16, -0.2), wall(2.1, 7, -0.4)];
+    let create = |two: &Mesh| -> Interface { contact(&one, two, true, options()) };
+    slides_as_without_the_others(&one, &walls, create);
+}
+
 /// Facets of any kind, quadratic ones among them, and lines.
 #[test]
 fn facets_of_all_kinds_hide_those_behind() {

@@ -169,5 +169,5 @@ def elimination_order(pairs: list[Pair]) -> list[int]:
         return list(TopologicalSorter(before).static_order())
     except CycleError as error:
         names = sorted(set(error.args[1]))
-        raise InvalidValue(f"start: the interfaces {names} act on each other's nodes with multipliers all round, so that none of them can be condensed"
-                           " first: swap the sides of one, or give up condensed") from error
+        raise InvalidValue(f"start: the interfaces {names} act on each other's nodes with multipliers all round, so that none of them can"
+                           " be condensed first: swap the sides of one, or give up condensed") from error
