@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from . import _arrays
 from ._arrays import given, output
-from ._pair import Pair
+from ._pair import Pair, elimination_order
 from ._rigid_nodes import RigidNodes
 from .errors import InvalidSize, InvalidValue
 from .interface import Interface
@@ -48,7 +48,8 @@ class Contact:
         values at nodes.
     size : how many unknowns the host has; without it as many as ``dofs`` says
     condensed : True: no multipliers among the unknowns. Vectors have the host's unknowns alone, and :meth:`tangent` changes the rows of
-        the host. The unknowns of the first side's nodes must all be free.
+        the host. The unknowns of the first side's nodes must all be free: what is prescribed there has dofs -1. A node has multipliers in
+        one interface at most.
     """
 
     def __init__(self, X: ArrayLike, dofs: Any = None, size: int | None = None, *, condensed: bool = False):
@@ -75,6 +76,7 @@ class Contact:
         self._numbers: Integers = self.dofs.copy() if self._map is None else np.arange(self.X.size).reshape(self.X.shape)
         self._rigid = RigidNodes()
         self._pairs: list[Pair] = []
+        self._order: list[int] = []
         self._start: Reals | None = None
         self._at: Reals | None = None
         self._commits = 0
@@ -152,6 +154,7 @@ class Contact:
         if u is not None:
             x[: self.n_host] = given("u", u, (self.n_host,))
         if self.condensed:
+            self._order = elimination_order(self._pairs)
             for pair, (x1, x2, _) in self._evaluated(x):
                 pair.system.multipliers(x1, x2, np.zeros(x1.shape))  # refuses here what has no condensed form, not in a step
         else:
@@ -164,15 +167,18 @@ class Contact:
         output("r", r, (self.size,))
         self._at = None
         inner, rows = np.zeros(self._n_inner), []
-        own = r.copy()
-        for pair, (x1, x2, lam) in self._evaluated(x):
+        own, points = r.copy(), self._evaluated(x)
+        if self.condensed and not self._order:
+            self._order = elimination_order(self._pairs)
+        for pair, (x1, x2, lam) in [points[k] for k in self._order] if self.condensed else points:
             if self.condensed:
                 host1 = np.where(pair.equations1 < 0, 0.0, own[pair.equations1])
                 fresh = not self._commits and self._start is not None and np.array_equal(x, self._start)
                 pair.lam = pair.face.initial_multipliers() if fresh else pair.system.multipliers(x1, x2, host1)
                 pair.scaled = not fresh
                 rows1, force2 = pair.system.residual(x1, x2, pair.lam, host1)
-                pair.spread(inner, rows1 - host1, force2)
+                for vector in (inner, own):  # to those that come after they are forces of the host
+                    pair.spread(vector, rows1 - host1, force2)
             else:
                 force1, force2, row = pair.face.residual(x1, x2, lam)
                 pair.spread(inner, force1, force2)
@@ -228,7 +234,10 @@ class Contact:
             raise InvalidValue("K: the host's matrix is needed, as contact is condensed")
         pieces = [pair.pieces(point, self.n_host) for pair, point in points]
         inner = K + sum(forces for forces, _, _ in pieces)
-        return (inner + sum(elimination @ inner + constraints for _, elimination, constraints in pieces)).tocsr()
+        for k in self._order:
+            _, elimination, constraints = pieces[k]
+            inner = inner + elimination @ inner + constraints
+        return inner.tocsr()
 
     def balanced(self, x: Reals, tolerance: float = _BALANCE) -> bool:
         """Whether every interface is in contact equilibrium. Whether forces balance is the host's to ask."""
@@ -351,9 +360,7 @@ class Contact:
 
     def first_side(self) -> Integers:
         """The host's unknowns of all nodes that have multipliers."""
-        bearing = [pair.mask.reshape(len(pair.mask), -1).any(axis=1) for pair in self._pairs]
-        numbers: Integers = np.concatenate([pair.equations1[nodes].ravel() for pair, nodes in zip(self._pairs, bearing)])
-        return numbers[numbers >= 0]
+        return np.concatenate([pair.bearing() for pair in self._pairs])
 
     def report(self) -> str:
         """Which nodes are covered in the first configuration, and what looks wrong, in sentences."""
