@@ -15,7 +15,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: packages hosts newcomer help demo gallery effects aids method study border compare bench random fuzz stability scaling scaling-ranks ranks ranks-full newest-petsc ratios digest wheel python-examples check test test-long test-full build install uninstall docs reference abi sizes header compose meshes clean cmake-build rust-tests
+.PHONY: packages hosts newcomer help demo gallery effects aids method study border exact compare bench random fuzz stability scaling scaling-ranks ranks ranks-full newest-petsc ratios digest wheel python-examples check test test-long test-full build install uninstall docs reference abi sizes header compose meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
@@ -26,6 +26,7 @@ help:
 	@echo "             ONLY='SCENE ...': some (FIGURES=1: renew the digest in docs/method.md)"
 	@echo "make study   what accuracy costs in time, ten to thirty minutes, resumed; QUICK=1: a check; FIGURES=1: as above"
 	@echo "make border  the border of a contact, decided at nodes or at points: tables and a figure, ten minutes (FIGURES=1: as above)"
+	@echo "make exact   tests with exact answers, coarse to fine: tables and a figure, half an hour, resumed; ONLY='NAME ...': some (FIGURES=1: as above)"
 	@echo "make compare the same problems in other programs, those that are installed (FIGURES=1: renew the table)"
 	@echo "make bench   what the kernels cost, over a C++ baseline and in instructions (FIGURES=1: renew its table)"
 	@echo "make stability  hard cases x severity, each compared with an answer: build/stability/index.html; can be resumed;"
@@ -46,7 +47,7 @@ help:
 	@echo "make fuzz    fuzz the pair kernel, the handle, its effects and the C ABI, a quarter of an hour each (FUZZ_SECONDS=)"
 	@echo "make wheel   the Python package as a wheel, in $(BUILD)/wheels"
 	@echo "make python-examples   its examples, with the libraries they need, in an environment below $(BUILD)/"
-	@echo "make hosts   programs on deal.II, MFEM, scikit-fem, FElupe and petsc4py: installs these, compares them with the driver; hosts/README.md"
+	@echo "make hosts   programs on deal.II, MFEM, scikit-fem, FElupe, SfePy, petsc4py, and in CalculiX: installs these, compares them with the driver; hosts/README.md"
 	@echo "make newcomer   what the documents tell a new user to type, typed in an empty place, with its time (NAMES='python ...')"
 	@echo "make packages   crate, Debian packages, recipes of Spack and conda-forge, in $(BUILD)/packages; packaging/README.md"
 	@echo "make build   build the library and the examples into $(BUILD)/"
@@ -136,6 +137,12 @@ border:
 	@$(PYTHON) studies/border/driver_table.py --build $(BUILD) $(if $(FIGURES),--renew-figures)
 	@$(PYTHON) studies/border/border.py --build $(BUILD) $(if $(FIGURES),--renew-figures)
 
+exact:
+	@.ci/setup demo
+	@$(MAKE) --no-print-directory cmake-build
+	$(SAY) "Tests with exact answers"
+	@$(PYTHON) studies/exact/exact.py --build $(BUILD) $(if $(ONLY),--only $(ONLY)) $(if $(FIGURES),--renew-figures)
+
 compare:
 	@.ci/setup compare
 	@$(MAKE) --no-print-directory cmake-build
@@ -216,7 +223,7 @@ hosts:
 	@test -x $(BUILD)/hosts/python/bin/pip || $(PYTHON) -m venv $(BUILD)/hosts/python
 	@$(BUILD)/hosts/python/bin/pip install -q --no-deps mfem
 	@$(BUILD)/hosts/python/bin/pip install -q cffi numpy scipy scikit-fem felupe 2>/dev/null
-	@$(PYTHON) hosts/check.py --build $(BUILD)
+	@$(PYTHON) hosts/check.py --build $(BUILD) --calculix
 	@STICKSLIP_LIBRARY=$(abspath $(BUILD))/lib/libstickslip.so $(PYTHON) -m pytest -q -rs -p no:cacheprovider python/tests/test_petsc4py.py
 
 # Of the committed tree: it clones it, and builds the library as a user does.

@@ -30,7 +30,7 @@ write_basic_package_version_file(stickslip-config-version.cmake COMPATIBILITY ${
 
 # Where a project around this one has installed files before, the list begins after them.
 install(CODE "list(LENGTH CMAKE_INSTALL_MANIFEST_FILES stickslip_first)")
-install(FILES include/stickslip.h include/stickslip.f90 DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+install(FILES include/stickslip.h include/stickslip.hpp include/stickslip.f90 DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 install(FILES "${STICKSLIP_SHARED}" DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 install(FILES ${STICKSLIP_LINKS} "${STICKSLIP_STATIC}" DESTINATION "${CMAKE_INSTALL_LIBDIR}")
@@ -40,7 +40,7 @@ install(FILES "${PROJECT_BINARY_DIR}/stickslip-config.cmake" "${PROJECT_BINARY_D
   DESTINATION "${package_dir}")
 install(FILES README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md SUPPORT.md LICENSE-MIT LICENSE-APACHE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 file(GLOB host_pages docs/host_*.md)
-install(FILES ${host_pages} docs/first_program.md docs/plug_in.md docs/formulation.md docs/abi.md docs/compose.md docs/gradients.md docs/accuracy.md docs/cells.md docs/other_programs.md docs/border.md docs/points.md docs/stability.md docs/glossary.md
+install(FILES ${host_pages} docs/first_program.md docs/plug_in.md docs/formulation.md docs/abi.md docs/compose.md docs/gradients.md docs/general_contact.md docs/accuracy.md docs/exact.md docs/cells.md docs/other_programs.md docs/border.md docs/points.md docs/stability.md docs/glossary.md
   docs/scaling.md docs/other_hosts.md docs/feap.md docs/energy_norm.md docs/method.md docs/dynamics.md docs/without_pivoting.md
   DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs")
 install(FILES ARCHITECTURE.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")

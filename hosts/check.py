@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Builds the hosts that are installed against an installed stickslip, runs them, and compares them with the driver.
 
-    check.py --build BUILD [--cmake cmake]
+    check.py --build BUILD [--cmake cmake] [--calculix]
 
-A host that is not installed is left out with a sentence. The exit code is 77 if none is there.
+A host that is not installed is left out with a sentence. The exit code is 77 if none is there. --calculix: gets and compiles CalculiX,
+two minutes; without it CalculiX takes part where that was done before.
 """
 
 import argparse
@@ -172,10 +173,29 @@ def python_with(module, build):
     return None
 
 
+def calculix(build, prefix, fetch):
+    """Compiles CalculiX with the library and compares it; whether it is there."""
+    folder, here = build / "hosts/calculix", HERE / "calculix"
+    if not fetch and not (folder / "ccx_stickslip").exists():
+        print("left out  CalculiX is not compiled: `make hosts` does it")
+        return False
+    made = run(sys.executable, here / "build.py", "--prefix", prefix, "--out", folder, may_fail=True)
+    print(made.stdout.strip(), flush=True)
+    if made.returncode == NONE_IS_THERE:
+        return False
+    if made.returncode != 0:
+        failed.append("CalculiX")
+    elif subprocess.run([sys.executable, here / "check.py", "--program", folder / "ccx_stickslip", "--driver",
+                         build / "c_examples/snes_contact", "--out", folder / "runs"]).returncode != 0:
+        failed.append("CalculiX")
+    return True
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--build", required=True, type=Path)
     parser.add_argument("--cmake", default="cmake")
+    parser.add_argument("--calculix", action="store_true")
     arguments = parser.parse_args()
     build = arguments.build.resolve()
     prefix = build / "hosts/installed"
@@ -183,7 +203,7 @@ def main():
     # The wheel of MFEM, where `make hosts` puts it.
     prefixes = [str(prefix), *map(str, (build / "hosts/python").glob("lib/python*/site-packages/mfem/external/ser"))]
     env = {"STICKSLIP_LIBRARY": str(prefix / "lib/libstickslip.so"), "PYTHONPATH": str(ROOT / "python/src")}
-    there = 0
+    there = int(calculix(build, prefix, arguments.calculix))
     with tempfile.TemporaryDirectory(prefix="stickslip-") as folder:
         folder = Path(folder)
         driver = Driver(build / "c_examples/snes_contact", folder)
@@ -201,7 +221,8 @@ def main():
             run(arguments.cmake, "--build", own)
             two_blocks(name, [own / "two_blocks"], driver, folder)
         for name, module, example in (("numpy", "numpy", "numpy_blocks.py"), ("FEniCSx", "dolfinx", "fenicsx_blocks.py"),
-                                      ("scikit-fem", "skfem", "scikit_fem_blocks.py"), ("FElupe", "felupe", "felupe_blocks.py"),
+                                      ("scikit-fem", "skfem", "scikit_fem_blocks.py"), ("SfePy", "sfepy", "sfepy_blocks.py"),
+                                      ("FElupe", "felupe", "felupe_blocks.py"),
                                       ("petsc4py", "petsc4py", "petsc4py_block.py")):
             python = python_with(module, build)
             if python is None:

@@ -81,6 +81,22 @@
  * at the start of a step, interface_use_normals for a step in two phases. Before it: surface_split_creases or lines_split_creases where a non-mortar surface
  * has sharp edges, crosspoints_find where interfaces share nodes.
  *
+ * A host that hands over the whole skin of its bodies, without pairs and sides (docs/general_contact.md):
+ *
+ *     options_init, skin_create              once; skin_copies for the number of multipliers
+ *     skin_initial_multipliers               once, before the first step
+ *     skin_plan                              once, and again when values are refused because an entry is missing
+ *     skin_plan_coo, skin_plan_coo32         its entries
+ *     skin_residual, skin_plan_values        in each Newton iteration
+ *     skin_step_limit, skin_equilibrium, skin_states as of an interface
+ *     skin_commit                            after each converged step: who may touch whom is found anew;
+ *                                            skin_rollback undoes it
+ *     skin_destroy                           at the end
+ *
+ * and what it may add: skin_set_pair, skin_set_constraints; skin_facets, skin_report to see what was found; skin_exchange where a
+ * step does not converge; skin_use_normals, skin_turn_multipliers for steps in two phases; skin_history_size, skin_history_export,
+ * skin_history_import for restarts.
+ *
  * A host without multipliers among its unknowns (dual basis) has in place of pattern, residual and tangent:
  *
  *     interface_condensed_pattern            to preallocate its matrix
@@ -422,10 +438,12 @@
 
 /// Kind of a shared node: non-mortar in more than one interface. Where it sticks or is tied in two of them, six
 /// conditions meet three displacements: leave it its multipliers in one of them and give it -1 in the others, or, where
-/// their normals differ, let it be without friction in all.
+/// their normals differ, let it be without friction in all. Interfaces that are condensed must have none: give it multipliers in
+/// one of them alone.
 #define STICKSLIP_CROSSPOINT_CLAIMED 1
 
-/// Kind of a shared node: non-mortar in one interface, mortar in another one, a link of a chain. Fine.
+/// Kind of a shared node: non-mortar in one interface, mortar in another one, a link of a chain. Fine; where they are condensed,
+/// the one in which it is mortar comes first.
 #define STICKSLIP_CROSSPOINT_CHAIN 2
 
 /// Kind of a shared node: on both sides of the same interface. It touches itself: leave the facets around it out of one
@@ -492,7 +510,8 @@
 /// Cover of a node: all of its area, within 1 %.
 #define STICKSLIP_COVER_FULL 2
 
-/// Cover of a node: several layers of the mortar surface, over a facet around it. A commit refuses them.
+/// Cover of a node: several layers of the mortar surface, over a facet around it. The next
+/// commit settles which are the nearest; at a seam a part of a facet may stay covered twice.
 #define STICKSLIP_COVER_SEVERAL 3
 
 /// Finding: nothing is amiss with surfaces that lie over each other.
@@ -740,7 +759,7 @@ typedef struct stickslip_options {
   /// [L]. 0 (default): any gap, and a penetration of one facet (the smaller of the two) beyond what the curved
   /// surfaces lie off their facets, so that the far side of a body is not found; a fine mortar surface that dips into
   /// coarse non-mortar facets is followed down from where it enters them, by as much as a coarse facet is long. Give it
-  /// where the mortar surface lies in layers (refused otherwise) or the surfaces start deeper in each other than a facet.
+  /// where the surfaces start deeper in each other than a facet. Of a mortar surface in layers the nearest facets are pairs.
   double search_distance;
 } stickslip_options;
 
@@ -1576,7 +1595,7 @@ int32_t stickslip_crosspoints_find(int64_t n_interfaces,
 /// DEGENERATE_FACET, INVALID_VALUE (an option; a node without a facet; neighbouring facets with opposite node
 /// orders, a surface that branches or is folded; a mortar side given multipliers; a multiplier's equation that is that
 /// of a displacement or of another multiplier; a frame that is too small for where
-/// it is; a mortar surface in layers), MISSING_STIFFNESS, UNSUPPORTED, UNDEFINED_NORMAL, PROJECTION_NOT_CONVEX.
+/// it is; mortar facets on each other, in one place), MISSING_STIFFNESS, UNSUPPORTED, UNDEFINED_NORMAL, PROJECTION_NOT_CONVEX.
 /// Cost: one search, O((n1 + n2) log n2), and one integration of the pairs found; allocates.
 /// Owner: the caller, who ends it with `stickslip_interface_destroy`. Both surfaces and the options are
 /// copied: all arrays may be freed after the call.
@@ -1634,8 +1653,8 @@ int32_t stickslip_interface_set_constraints(struct stickslip_interface *interfac
 /// Takes (x1, x2), 3 n1 and 3 n2 [L], as the configuration of t_n with nothing slipped yet, in place of
 /// the first configuration. A commit before it can no longer be undone.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (a
-/// mortar surface in layers, an analytic surface's frame).
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE
+/// (mortar facets on each other, an analytic surface's frame).
 /// Cost: one search and one integration; allocates.
 int32_t stickslip_interface_set_previous(struct stickslip_interface *interface,
                                          const double *x1,
@@ -1651,8 +1670,8 @@ int32_t stickslip_interface_set_previous(struct stickslip_interface *interface,
 ///
 /// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS) and friction.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (commits < 0, a
-/// mortar surface in layers, an analytic surface's frame), UNSUPPORTED.
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (commits < 0,
+/// mortar facets on each other, an analytic surface's frame), UNSUPPORTED.
 /// Cost: one search and one integration; allocates.
 int32_t stickslip_interface_set_committed(struct stickslip_interface *interface,
                                           const double *x1,
@@ -1685,8 +1704,8 @@ int32_t stickslip_interface_initial_multipliers(struct stickslip_interface *inte
 /// `stickslip_interface_set_friction` too): each decides by its own whether slip counts. An analytic mortar side covers
 /// every facet that faces it: it belongs to one handle, and none of the others may hold a mortar facet behind it.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX; INVALID_VALUE (the mortar surface lay in
-/// layers at t_n, and was not looked at because the surfaces were apart then); with an analytic mortar side also
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX; INVALID_VALUE (mortar facets lay on
+/// each other at t_n, and were not looked at because the surfaces were apart then); with an analytic mortar side also
 /// INVALID_VALUE (x2 is no rigid motion of the first frame) and UNDEFINED_NORMAL (a facet reaches its centre or axis).
 /// Cost: at other positions than those of the last evaluation one search and one integration (frozen weights:
 /// none), then O(pairs). Allocates what the handle has not had before: from the third call on, as long as about as many
@@ -1944,6 +1963,10 @@ int32_t stickslip_interface_carriers(struct stickslip_interface *interface,
 /// from given multipliers: at the old positions, host1 being the residual there plus J du, J the host's matrix with
 /// STICKSLIP_CONDENSED_FORCES.
 ///
+/// A component that the host prescribes has equation -1 in the surface, and at a node with multipliers none of these. Where the host
+/// fixes a row afterwards instead, its reaction is missing in host1 and the mortar side is given wrong forces, which no
+/// handle can notice.
+///
 /// Not with (UNSUPPORTED): standard multipliers (STICKSLIP_BASIS_STANDARD); points that decide (STICKSLIP_DECISION_POINTS);
 /// the augmented form (STICKSLIP_FORM_AUGMENTED); nodes that handles share (owned has STICKSLIP_NODE_SHARED); parts of an
 /// interface (owned has STICKSLIP_NODE_ELSEWHERE) and quadratic facets; parts of an interface (owned has
@@ -2006,8 +2029,9 @@ int32_t stickslip_interface_condensed_coo(struct stickslip_interface *interface,
 
 /// Turns the host's own matrix, compressed sparse rows, into that of the system without multipliers, in place: J + E J + G,
 /// see `stickslip_interface_condensed_coo`. Where multipliers follow from the displacements add the piece SCALES to it: its
-/// entries are there. Several interfaces of one matrix: none may have a mortar node that is
-/// non-mortar in another one.
+/// entries are there. Several interfaces of one matrix: call them in an order in which an interface whose forces act on a
+/// node comes before the one in which the node has a multiplier (docs/host_condensed.md). A node with multipliers in two of
+/// them gives wrong forces, which no handle can notice: `stickslip_crosspoints_find` names it as CLAIMED.
 ///
 /// x1, x2, lambda as there; n_rows, row_offsets, columns, values as for `stickslip_interface_tangent_csr`; only the rows of
 /// the interface's nodes are read and changed.
@@ -2078,10 +2102,13 @@ int32_t stickslip_interface_step_limit(struct stickslip_interface *interface,
 
 /// Accepts a converged step: (x1, x2, lambda) becomes t_n; weights, normals, coverage and slip move on.
 ///
+/// Where the mortar surface lies in layers, the nearest facets over each non-mortar facet are its pairs until the next commit
+/// (docs/formulation.md 6.6); the creation, `stickslip_interface_set_previous` and `stickslip_interface_set_committed` settle it, too.
+///
 /// Inputs x1, x2, lambda, sums as for `stickslip_interface_states`.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (a
-/// mortar surface in layers, an analytic surface's frame), TURNED_TOO_FAR (by more than method.turn_max since the last commit;
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE
+/// (mortar facets on each other, in one place, an analytic surface's frame), TURNED_TOO_FAR (by more than method.turn_max since the last commit;
 /// with friction against each other, too), CONTACT_LOST (a closed node would lose a pair that is deeper than one may be, or all
 /// that covers it); then nothing has moved.
 /// Cost: as `stickslip_interface_states`, then O(n1 + n2) for what the next step needs. Of facets between which there can be
@@ -2120,7 +2147,7 @@ int32_t stickslip_interface_rollback(struct stickslip_interface *interface);
 /// n_integers, n_reals, output.
 ///
 /// Errors: NULL_POINTER; where the weights of t_n were left out because the surfaces were apart, those of the commit,
-/// INVALID_VALUE (a mortar surface in layers) among them.
+/// INVALID_VALUE (mortar facets on each other) among them.
 /// Cost: none, or then one search and one integration.
 int32_t stickslip_interface_history_size(struct stickslip_interface *interface,
                                          int64_t *n_integers,
@@ -3174,6 +3201,16 @@ int32_t stickslip_skin_turn_multipliers(struct stickslip_skin *skin, const doubl
 int32_t stickslip_skin_commit(struct stickslip_skin *skin,
                               const double *x,
                               double *lambda);
+
+/// Exchanges the sides of all facets at t_n, for a step that fails however small it is: whether Newton's method converges may
+/// depend on the side that has the multipliers. Slips stay. Make the plan again, and solve the step once more from t_n.
+///
+/// lambda (3 copies) [F/L^2]: those of t_n, in and out: copies that take over have minus that of the nearest node of the other side.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, and those of `stickslip_skin_create`. No commit can be undone after it.
+/// Cost: that of the interfaces' creation. Allocates.
+int32_t stickslip_skin_exchange(struct stickslip_skin *skin,
+                                double *lambda);
 
 /// Undoes the last commit exactly; the host takes its multipliers of then. Only one can be undone. Make the plan again.
 ///

@@ -21,32 +21,27 @@
 #include <deal.II/lac/sparse_direct.h>
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/vector.h>
-#include <stickslip.h>
+#include <stickslip.hpp>
 
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <memory>
 #include <stdexcept>
 
 using namespace dealii;
 
 constexpr int dim = 3;
-// A body's residual over its own forces; the contact over scales of its own: docs/host_convergence.md.
-constexpr double RTOL = 2e-11, CONTACT_RTOL = 1e-10;
+// A body's residual over its own forces: docs/host_convergence.md.
+constexpr double RTOL = 2e-11;
 constexpr double FRICTION = 0.3;
 constexpr int MAX_ITERATIONS = 25;
 // Boundary ids of a coloured hyper_rectangle.
 constexpr types::boundary_id BOTTOM = 4, TOP = 5;
 
-// A refusal of the library. Within Newton's method a code of your own catches it, and takes a smaller step.
-static void must(const int32_t status) {
-  if (status != STICKSLIP_OK) throw std::runtime_error(stickslip_last_error_message());
-}
-
-// What the library reads of one side. Facets are in right-hand order seen from outside the body.
-struct Side {
-  std::vector<double> coordinates;
-  std::vector<int64_t> dofs, equations, offsets{0}, nodes; // dofs: of each displacement; equations: -1 if constrained
+// What the library reads of one side, whose equations are -1 if constrained, and the unknown of each displacement.
+struct Side : stickslip::Side {
+  std::vector<int64_t> dofs;
 };
 
 class Block {
@@ -103,17 +98,17 @@ public:
         const Tensor<1, dim> normal =
             cross_product_3d(face->vertex(1) - face->vertex(0), face->vertex(2) - face->vertex(0));
         if (normal * (face->center() - cell->center()) < 0) std::swap(order[1], order[3]);
-        for (const unsigned int v : order) {
+        for (unsigned int &v : order) {
           const auto [place, is_new] = number.try_emplace(face->vertex_dof_index(v, 0), number.size());
-          out.nodes.push_back(place->second);
           for (int i = 0; is_new && i < dim; i++) {
             const types::global_dof_index dof = first + face->vertex_dof_index(v, i);
             out.coordinates.push_back(face->vertex(v)[i]);
             out.dofs.push_back(dof);
             out.equations.push_back(constraints.is_constrained(dof) ? -1 : int64_t(dof));
           }
+          v = place->second;
         }
-        out.offsets.push_back(out.nodes.size());
+        out.add_facet(order);
       }
     return out;
   }
@@ -144,7 +139,6 @@ public:
 class TwoBlocks {
 public:
   explicit TwoBlocks(bool patch);
-  ~TwoBlocks() { stickslip_interface_destroy(&contact); }
   void solve_step(int step, double fraction);
   void write(const char *file) const;
 
@@ -157,10 +151,8 @@ private:
   Block upper, lower;
   Side side1, side2; // the upper block's bottom, non-mortar; the lower block's top
   Tensor<1, dim> grip; // way of the upper block's top
-  stickslip_interface *contact = nullptr;
-  std::vector<double> x1, x2, multipliers, force1, force2, rows; // of the last assembly
-  std::vector<int64_t> plan_rows, plan_columns;
-  std::vector<double> plan_values;
+  std::unique_ptr<stickslip::Contact> contact;
+  std::vector<double> x1, x2, multipliers; // of the last assembly
   AffineConstraints<double> constraints;
   SparsityPattern pattern;
   SparseMatrix<double> matrix;
@@ -184,29 +176,16 @@ TwoBlocks::TwoBlocks(const bool patch)
   side1 = upper.side(BOTTOM, constraints);
   side2 = lower.side(TOP, constraints);
   multipliers.resize(side1.dofs.size());
-  std::vector<int64_t> equations(multipliers.size());
-  for (size_t k = 0; k < equations.size(); k++) equations[k] = first_multiplier + k;
-  const auto surface = [](const Side &side) {
-    stickslip_surface out{};
-    out.struct_size = sizeof out;
-    out.n_nodes = side.dofs.size() / dim, out.n_facets = side.offsets.size() - 1;
-    out.coordinates = side.coordinates.data(), out.equations = side.equations.data();
-    out.facet_offsets = side.offsets.data(), out.facet_nodes = side.nodes.data();
-    return out;
-  };
-  stickslip_surface nonmortar = surface(side1), mortar = surface(side2);
-  nonmortar.multiplier_equations = equations.data();
-  stickslip_options options;
-  must(stickslip_options_init(&options, sizeof options));
+  for (size_t k = 0; k < multipliers.size(); k++) side1.multiplier_equations.push_back(first_multiplier + k);
+  stickslip_options options = stickslip::default_options();
   options.mu = FRICTION;
   options.modulus = upper.young; // of the softer body: gives the augmentation its unit; the answer does not depend on it
-  must(stickslip_interface_create(&nonmortar, &mortar, &options, &contact));
-  must(stickslip_interface_initial_multipliers(contact, multipliers.data()));
+  contact = std::make_unique<stickslip::Contact>(side1, side2, options);
+  contact->start(multipliers.data());
 
-  solution.reinit(first_multiplier + equations.size());
+  solution.reinit(first_multiplier + multipliers.size());
   residual.reinit(solution), internal.reinit(solution);
   std::copy(multipliers.begin(), multipliers.end(), solution.begin() + first_multiplier);
-  force1.resize(side1.dofs.size()), force2.resize(side2.dofs.size()), rows.resize(multipliers.size());
   positions();
   make_pattern();
 }
@@ -221,14 +200,12 @@ void TwoBlocks::positions() {
 
 // Entries of the cells, and those of all pairs of facets that may meet while the blocks slide by less than a quarter of one.
 void TwoBlocks::make_pattern() {
-  int64_t n_rows, count;
-  must(stickslip_interface_plan(contact, x1.data(), x2.data(), STICKSLIP_PLAN_SKIN, &n_rows, &count));
-  plan_rows.resize(count), plan_columns.resize(count), plan_values.resize(count);
-  must(stickslip_interface_plan_coo(contact, STICKSLIP_ENTRIES_TANGENT, count, plan_rows.data(), plan_columns.data()));
+  contact->plan(x1.data(), x2.data());
   DynamicSparsityPattern dynamic(solution.size());
   for (const Block *block : {&upper, &lower})
     block->for_each_cell([&](const auto &, const auto &dofs) { constraints.add_entries_local_to_global(dofs, dynamic); });
-  for (int64_t k = 0; k < count; k++) dynamic.add(plan_rows[k], plan_columns[k]);
+  const stickslip::Entries &entries = contact->planned();
+  for (size_t k = 0; k < entries.size(); k++) dynamic.add(entries.rows[k], entries.columns[k]);
   matrix.clear();
   pattern.copy_from(dynamic);
   matrix.reinit(pattern);
@@ -236,16 +213,11 @@ void TwoBlocks::make_pattern() {
 
 void TwoBlocks::assemble() {
   positions();
-  int32_t status = stickslip_interface_plan_values(contact, x1.data(), x2.data(), multipliers.data(), nullptr,
-                                                   plan_values.size(), plan_values.data());
-  if (status == STICKSLIP_MISSING_ENTRY) { // the blocks have slid on
+  if (!contact->values(x1.data(), x2.data(), multipliers.data())) { // the blocks have slid on
     make_pattern();
-    status = stickslip_interface_plan_values(contact, x1.data(), x2.data(), multipliers.data(), nullptr,
-                                             plan_values.size(), plan_values.data());
+    contact->values(x1.data(), x2.data(), multipliers.data());
   }
-  must(status);
-  must(stickslip_interface_residual(contact, x1.data(), x2.data(), multipliers.data(), nullptr, force1.data(),
-                                    force2.data(), rows.data()));
+  contact->evaluate(x1.data(), x2.data(), multipliers.data());
   matrix = 0, internal = 0;
   for (const Block *block : {&upper, &lower})
     block->for_each_cell([&](const FullMatrix<double> &cell, const std::vector<types::global_dof_index> &dofs) {
@@ -255,11 +227,12 @@ void TwoBlocks::assemble() {
       internal.add(dofs, force);
       constraints.distribute_local_to_global(cell, dofs, matrix);
     });
-  for (size_t k = 0; k < plan_values.size(); k++) matrix.add(plan_rows[k], plan_columns[k], plan_values[k]);
+  const stickslip::Entries &entries = contact->planned();
+  for (size_t k = 0; k < entries.size(); k++) matrix.add(entries.rows[k], entries.columns[k], entries.values[k]);
   residual = internal;
-  for (size_t k = 0; k < force1.size(); k++) residual[side1.dofs[k]] += force1[k];
-  for (size_t k = 0; k < force2.size(); k++) residual[side2.dofs[k]] += force2[k];
-  std::copy(rows.begin(), rows.end(), residual.begin() + (lower.first + lower.n_dofs()));
+  for (size_t k = 0; k < x1.size(); k++) residual[side1.dofs[k]] += contact->force1()[k];
+  for (size_t k = 0; k < x2.size(); k++) residual[side2.dofs[k]] += contact->force2()[k];
+  std::copy(contact->rows().begin(), contact->rows().end(), residual.begin() + (lower.first + lower.n_dofs()));
 }
 
 // The forces on each block balance, beside its own ones, and the interface is in contact equilibrium.
@@ -268,14 +241,10 @@ bool TwoBlocks::converged() {
     double free = 0, reactions = 0, contact_forces = 0;
     for (auto k = block->first; k < block->first + block->n_dofs(); k++)
       (constraints.is_constrained(k) ? reactions : free) += residual[k] * residual[k];
-    for (const double f : block == &upper ? force1 : force2) contact_forces += f * f;
+    for (const double f : block == &upper ? contact->force1() : contact->force2()) contact_forces += f * f;
     if (std::sqrt(free) > RTOL * (std::sqrt(reactions) + std::sqrt(contact_forces))) return false;
   }
-  stickslip_equilibrium e{};
-  e.struct_size = sizeof e, e.modulus = upper.young;
-  must(stickslip_interface_equilibrium(contact, x1.data(), x2.data(), multipliers.data(), nullptr, &e));
-  return e.gap <= CONTACT_RTOL * e.gap_scale && e.traction <= CONTACT_RTOL * e.traction_scale &&
-         e.slip <= CONTACT_RTOL * e.slip_scale;
+  return stickslip::balanced(contact->equilibrium(x1.data(), x2.data(), multipliers.data()));
 }
 
 void TwoBlocks::solve_step(const int step, const double fraction) {
@@ -292,18 +261,13 @@ void TwoBlocks::solve_step(const int step, const double fraction) {
     constraints.set_zero(increment);
     solution -= increment;
   }
-  std::vector<int32_t> state(side1.dofs.size() / dim);
-  stickslip_states states{};
-  states.struct_size = sizeof states, states.state = state.data();
-  must(stickslip_interface_states(contact, x1.data(), x2.data(), multipliers.data(), nullptr, &states));
-  must(stickslip_interface_commit(contact, x1.data(), x2.data(), multipliers.data(), nullptr));
-  int counts[3] = {0, 0, 0};
+  const stickslip::States states = contact->states(x1.data(), x2.data(), multipliers.data());
+  contact->commit(x1.data(), x2.data(), multipliers.data());
   double least = 0, most = -1e300;
-  for (const int32_t s : state) counts[s]++;
   for (size_t k = 2; k < multipliers.size(); k += dim)
     least = std::min(least, multipliers[k]), most = std::max(most, multipliers[k]);
-  std::cout << "step " << step << " iterations " << iterations << " gap " << counts[STICKSLIP_STATE_GAP] << " stick "
-            << counts[STICKSLIP_STATE_STICK] << " slip " << counts[STICKSLIP_STATE_SLIP] << " multipliers along z "
+  std::cout << "step " << step << " iterations " << iterations << " gap " << states.count(STICKSLIP_STATE_GAP) << " stick "
+            << states.count(STICKSLIP_STATE_STICK) << " slip " << states.count(STICKSLIP_STATE_SLIP) << " multipliers along z "
             << least << ' ' << most << std::endl;
 }
 

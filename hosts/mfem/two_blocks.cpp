@@ -7,11 +7,12 @@
 // FILE receives a row X Y Z ux uy uz for each node; a line is printed for each step. The blocks are linear, of small strain,
 // as in ex2. Prescribed values go into the solution at the start of a step; its increments have none.
 #include <mfem.hpp>
-#include <stickslip.h>
+#include <stickslip.hpp>
 #include <umfpack.h>
 
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -21,38 +22,19 @@ using mfem::SparseMatrix;
 using mfem::Vector;
 
 constexpr int DIM = 3;
-// A body's residual over its own forces; the contact over scales of its own: docs/host_convergence.md.
-constexpr double RTOL = 2e-11, CONTACT_RTOL = 1e-10;
+// A body's residual over its own forces: docs/host_convergence.md.
+constexpr double RTOL = 2e-11;
 constexpr double FRICTION = 0.3;
 constexpr int MAX_ITERATIONS = 25;
 // Boundary attributes of Mesh::MakeCartesian3D.
 constexpr int BOTTOM = 1, TOP = 6;
 
-// A refusal of the library. Within Newton's method a code of your own catches it, and takes a smaller step.
-static void must(const int32_t status) {
-  if (status != STICKSLIP_OK) throw std::runtime_error(stickslip_last_error_message());
+// The library takes positions, not displacements.
+static std::vector<double> positions(const stickslip::Side &side, const Vector &solution) {
+  std::vector<double> out = side.coordinates;
+  for (size_t k = 0; k < out.size(); k++) out[k] += solution(int(side.equations[k]));
+  return out;
 }
-
-// What the library reads of one side. Facets are in right-hand order seen from outside the body.
-struct Side {
-  std::vector<double> coordinates;
-  std::vector<int64_t> equations, offsets{0}, nodes; // equations: the unknown of each displacement
-
-  stickslip_surface surface() const {
-    stickslip_surface out{};
-    out.struct_size = sizeof out;
-    out.n_nodes = coordinates.size() / DIM, out.n_facets = offsets.size() - 1;
-    out.coordinates = coordinates.data(), out.equations = equations.data();
-    out.facet_offsets = offsets.data(), out.facet_nodes = nodes.data();
-    return out;
-  }
-  // The library takes positions, not displacements.
-  std::vector<double> positions(const Vector &solution) const {
-    std::vector<double> out = coordinates;
-    for (size_t k = 0; k < out.size(); k++) out[k] += solution(int(equations[k]));
-    return out;
-  }
-};
 
 struct Block {
   double young;
@@ -94,8 +76,8 @@ struct Block {
   }
 
   // outward: where the normal out of the body points along z, 1 or -1.
-  Side side(const int attribute, const int outward) {
-    Side out;
+  stickslip::Side side(const int attribute, const int outward) {
+    stickslip::Side out;
     std::vector<int64_t> number(mesh.GetNV(), -1);
     Array<int> v;
     for (int f = 0; f < mesh.GetNBE(); f++) {
@@ -103,17 +85,17 @@ struct Block {
       mesh.GetBdrElementVertices(f, v);
       const double *a = mesh.GetVertex(v[0]), *b = mesh.GetVertex(v[1]), *d = mesh.GetVertex(v[3]);
       if (outward * ((b[0] - a[0]) * (d[1] - a[1]) - (b[1] - a[1]) * (d[0] - a[0])) < 0) std::swap(v[1], v[3]);
-      for (const int vertex : v) {
+      for (int &vertex : v) {
         if (number[vertex] < 0) {
-          number[vertex] = out.coordinates.size() / DIM;
+          number[vertex] = out.n_nodes();
           for (int i = 0; i < DIM; i++) {
             out.coordinates.push_back(mesh.GetVertex(vertex)[i]);
             out.equations.push_back(unknown(vertex, i));
           }
         }
-        out.nodes.push_back(number[vertex]);
+        vertex = number[vertex];
       }
-      out.offsets.push_back(out.nodes.size());
+      out.add_facet(v);
     }
     return out;
   }
@@ -122,7 +104,6 @@ struct Block {
 class TwoBlocks {
 public:
   explicit TwoBlocks(bool patch);
-  ~TwoBlocks() { stickslip_interface_destroy(&contact); }
   void solve_step(int step, double fraction);
   void write(const char *file);
 
@@ -133,12 +114,12 @@ private:
   double *multipliers() { return solution.GetData() + first_multiplier; }
 
   Block upper, lower;
-  Side side1, side2; // the upper block's bottom, non-mortar; the lower block's top
+  stickslip::Side side1, side2; // the upper block's bottom, non-mortar; the lower block's top
   double grip[DIM];  // way of the upper block's top
   int first_multiplier;
   std::vector<bool> prescribed;
-  stickslip_interface *contact = nullptr;
-  std::vector<double> x1, x2, force1, force2; // of the last evaluation
+  std::unique_ptr<stickslip::Contact> contact;
+  std::vector<double> x1, x2; // of the last evaluation
   Vector solution, residual;
 };
 
@@ -149,21 +130,15 @@ TwoBlocks::TwoBlocks(const bool patch)
   lower.first = upper.size();
   first_multiplier = lower.first + lower.size();
   side1 = upper.side(BOTTOM, -1), side2 = lower.side(TOP, 1);
-  std::vector<int64_t> equations(side1.equations.size());
-  for (size_t k = 0; k < equations.size(); k++) equations[k] = first_multiplier + k;
-  stickslip_surface nonmortar = side1.surface();
-  const stickslip_surface mortar = side2.surface();
-  nonmortar.multiplier_equations = equations.data();
-  stickslip_options options;
-  must(stickslip_options_init(&options, sizeof options));
+  for (size_t k = 0; k < side1.equations.size(); k++) side1.multiplier_equations.push_back(first_multiplier + k);
+  stickslip_options options = stickslip::default_options();
   options.mu = FRICTION;
   options.modulus = upper.young; // of the softer body: gives the augmentation its unit; the answer does not depend on it
-  must(stickslip_interface_create(&nonmortar, &mortar, &options, &contact));
+  contact.reset(new stickslip::Contact(side1, side2, options));
 
-  solution.SetSize(first_multiplier + equations.size()), residual.SetSize(solution.Size());
+  solution.SetSize(first_multiplier + side1.multiplier_equations.size()), residual.SetSize(solution.Size());
   solution = 0.0;
-  must(stickslip_interface_initial_multipliers(contact, multipliers()));
-  force1.resize(side1.coordinates.size()), force2.resize(side2.coordinates.size());
+  contact->start(multipliers());
   prescribed.assign(solution.Size(), false); // no contact node is among them: else its equation would be -1
   for (int i = 0; i < DIM; i++) {
     for (const int k : upper.unknowns_of(TOP, i)) prescribed[k] = true;
@@ -173,16 +148,16 @@ TwoBlocks::TwoBlocks(const bool patch)
 
 // Internal forces, reactions among them, plus contact; then the multiplier rows.
 void TwoBlocks::evaluate() {
-  x1 = side1.positions(solution), x2 = side2.positions(solution);
+  x1 = positions(side1, solution), x2 = positions(side2, solution);
+  contact->evaluate(x1.data(), x2.data(), multipliers());
   residual = 0.0;
-  must(stickslip_interface_residual(contact, x1.data(), x2.data(), multipliers(), nullptr, force1.data(),
-                                    force2.data(), residual.GetData() + first_multiplier));
   for (Block *block : {&upper, &lower}) {
     Vector u(solution.GetData() + block->first, block->size()), r(residual.GetData() + block->first, block->size());
     block->stiffness.SpMat().Mult(u, r);
   }
-  for (size_t k = 0; k < force1.size(); k++) residual(int(side1.equations[k])) += force1[k];
-  for (size_t k = 0; k < force2.size(); k++) residual(int(side2.equations[k])) += force2[k];
+  for (size_t k = 0; k < x1.size(); k++) residual(int(side1.equations[k])) += contact->force1()[k];
+  for (size_t k = 0; k < x2.size(); k++) residual(int(side2.equations[k])) += contact->force2()[k];
+  for (size_t k = 0; k < contact->rows().size(); k++) residual(first_multiplier + int(k)) = contact->rows()[k];
 }
 
 // The forces on each block balance, beside its own ones, and the interface is in contact equilibrium.
@@ -191,26 +166,17 @@ bool TwoBlocks::converged() {
     double free = 0, reactions = 0, contact_forces = 0;
     for (int k = block->first; k < block->first + block->size(); k++)
       (prescribed[k] ? reactions : free) += residual[k] * residual[k];
-    for (const double f : block == &upper ? force1 : force2) contact_forces += f * f;
+    for (const double f : block == &upper ? contact->force1() : contact->force2()) contact_forces += f * f;
     if (std::sqrt(free) > RTOL * (std::sqrt(reactions) + std::sqrt(contact_forces))) return false;
   }
-  stickslip_equilibrium e{};
-  e.struct_size = sizeof e, e.modulus = upper.young;
-  must(stickslip_interface_equilibrium(contact, x1.data(), x2.data(), multipliers(), nullptr, &e));
-  return e.gap <= CONTACT_RTOL * e.gap_scale && e.traction <= CONTACT_RTOL * e.traction_scale &&
-         e.slip <= CONTACT_RTOL * e.slip_scale;
+  return stickslip::balanced(contact->equilibrium(x1.data(), x2.data(), multipliers()));
 }
 
 // Multipliers of nodes that stick have no diagonal: the solver pivots. An MFEM with SuiteSparse has UMFPackSolver for this.
 void TwoBlocks::solve_and_update() {
-  int64_t count = 0;
-  must(stickslip_interface_tangent_coo(contact, x1.data(), x2.data(), multipliers(), nullptr, 0, nullptr, nullptr, nullptr, &count));
-  std::vector<int64_t> rows(count), columns(count);
-  std::vector<double> entries(count);
-  must(stickslip_interface_tangent_coo(contact, x1.data(), x2.data(), multipliers(), nullptr, count, rows.data(), columns.data(),
-                                       entries.data(), &count));
+  const stickslip::Entries &entries = contact->tangent(x1.data(), x2.data(), multipliers());
   SparseMatrix matrix(solution.Size());
-  for (int64_t k = 0; k < count; k++) matrix.Add(rows[k], columns[k], entries[k]);
+  for (size_t k = 0; k < entries.size(); k++) matrix.Add(entries.rows[k], entries.columns[k], entries.values[k]);
   for (Block *block : {&upper, &lower}) {
     const SparseMatrix &own = block->stiffness.SpMat();
     for (int row = 0; row < own.Height(); row++)
@@ -244,18 +210,13 @@ void TwoBlocks::solve_step(const int step, const double fraction) {
     if (iterations++ == MAX_ITERATIONS) throw std::runtime_error("Newton's method does not converge");
     solve_and_update();
   }
-  std::vector<int32_t> state(force1.size() / DIM);
-  stickslip_states states{};
-  states.struct_size = sizeof states, states.state = state.data();
-  must(stickslip_interface_states(contact, x1.data(), x2.data(), multipliers(), nullptr, &states));
-  must(stickslip_interface_commit(contact, x1.data(), x2.data(), multipliers(), nullptr));
-  int counts[3] = {0, 0, 0};
-  for (const int32_t s : state) counts[s]++;
+  const stickslip::States states = contact->states(x1.data(), x2.data(), multipliers());
+  contact->commit(x1.data(), x2.data(), multipliers());
   double least = solution[first_multiplier + 2], most = least;
   for (int k = first_multiplier + 2; k < solution.Size(); k += DIM)
     least = std::min(least, solution[k]), most = std::max(most, solution[k]);
-  std::cout << "step " << step << " iterations " << iterations << " gap " << counts[STICKSLIP_STATE_GAP] << " stick "
-            << counts[STICKSLIP_STATE_STICK] << " slip " << counts[STICKSLIP_STATE_SLIP] << " multipliers along z "
+  std::cout << "step " << step << " iterations " << iterations << " gap " << states.count(STICKSLIP_STATE_GAP) << " stick "
+            << states.count(STICKSLIP_STATE_STICK) << " slip " << states.count(STICKSLIP_STATE_SLIP) << " multipliers along z "
             << least << ' ' << most << std::endl;
 }
 

@@ -259,6 +259,76 @@ def test_three_bodies_and_two_interfaces(condensed):
     contact.commit(x)
 
 
+class Bodies:
+    """Elastic boxes, each between its first two corners in so many cells."""
+
+    def __init__(self, *boxes):
+        parts = [block(*box, YOUNG, 0.3) for box in boxes]
+        firsts = np.cumsum([0, *(len(X) for X, _, _ in parts)])
+        self.X = np.vstack([X for X, _, _ in parts])
+        self.K = scipy.sparse.block_diag([internal(np.zeros(own.shape))[1] for own, _, internal in parts], "csr")
+        self.cells = [cells + first for (_, cells, _), first in zip(parts, firsts)]
+        self.dofs = np.arange(self.X.size).reshape(self.X.shape)
+
+    def face(self, body, axis, at):
+        return stickslip.skin(self.cells[body], self.X, lambda x: np.isclose(x[axis], at))
+
+    def solved(self, pairs, fixed, values, condensed):
+        contact = stickslip.Contact(self.X, condensed=condensed)
+        for pair in pairs:
+            contact.add(*pair, mu=0.3, modulus=YOUNG)
+        x = contact.start()
+        for part in (0.5, 1.0):
+            stickslip.newton(contact, lambda u: self.K @ u, lambda u: self.K, x, fixed=fixed, values=part * values)
+            contact.commit(x)
+        closed = [(states.state > 0).sum() for states in contact.states(x)] if not condensed else []
+        return x[: self.X.size], closed
+
+
+def in_a_corner():
+    """A block is pushed into a corner: its bottom is the second side of the floor, its flank the first side of the wall."""
+    bodies = Bodies(((0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (3, 3, 3)), ((-0.5, -0.2, -0.5), (1.0, 1.2, 0.0), (5, 4, 1)),
+                    ((1.0, -0.2, -0.5), (1.5, 1.2, 1.2), (1, 4, 6)))
+    pairs = [(bodies.face(0, 0, 1.0), bodies.face(2, 0, 1.0)), (bodies.face(1, 2, 0.0), bodies.face(0, 2, 0.0))]
+    top, rest = bodies.dofs[bodies.X[:, 2] == 1.0], bodies.dofs[(bodies.X[:, 2] == -0.5) | (bodies.X[:, 0] == 1.5)]
+    top = top[np.isin(top[:, 0], bodies.dofs[: 64, 0]) & (bodies.X[top[:, 0] // 3, 0] < 0.9)]
+    return bodies, pairs, np.concatenate([top, rest]), np.vstack([np.tile([0.004, 0.001, -0.01], (len(top), 1)), np.zeros(rest.shape)])
+
+
+def three_blocks():
+    """Two blocks side by side, and one that lies on both."""
+    bodies = Bodies(((0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (3, 3, 3)), ((1.0, 0.0, 0.0), (2.0, 1.0, 1.0), (4, 4, 4)),
+                    ((0.3, 0.1, 1.0), (1.7, 0.9, 1.5), (5, 3, 1)))
+    both = np.vstack([bodies.face(0, 2, 1.0), bodies.face(1, 2, 1.0)])
+    pairs = [(bodies.face(0, 0, 1.0), bodies.face(1, 0, 1.0)), (bodies.face(2, 2, 1.0), both)]
+    x = bodies.X
+    moved = [((x[:, 2] == 1.5), [0.003, 0.0, -0.01]), ((x[:, 0] == 0.0), [0.004, 0.0, 0.0]), ((x[:, 0] == 2.0), [0.0, 0.0, 0.0])]
+    return bodies, pairs, np.concatenate([bodies.dofs[at] for at, _ in moved]), np.concatenate([np.tile(u, (at.sum(), 1)) for at, u in moved])
+
+
+@pytest.mark.parametrize("scene", [in_a_corner, three_blocks])
+def test_chains_of_condensed_interfaces_are_eliminated_in_their_order(scene):
+    """Nodes of an edge are on the second side of one interface and on the first of another one."""
+    bodies, pairs, fixed, values = scene()
+    expected, closed = bodies.solved(pairs, fixed, values, False)
+    assert min(closed) > 3
+    on_both = np.intersect1d(np.concatenate([np.ravel(first) for first, _ in pairs]), np.concatenate([np.ravel(second) for _, second in pairs]))
+    assert len(on_both) > 2
+    for order in (pairs, pairs[::-1]):
+        found, _ = bodies.solved(order, fixed, values, True)
+        np.testing.assert_allclose(found, expected, atol=SAME * np.abs(expected).max())
+
+
+def test_what_has_no_order_is_refused():
+    bodies, ((flank, wall), (floor, bottom)), fixed, values = in_a_corner()
+    with pytest.raises(stickslip.Error, match=r"^start: nodes \[.*\] have multipliers in the interfaces 0 and 1; condensed"):
+        bodies.solved([(flank, wall), (bottom, floor)], fixed, values, True)
+    bodies.solved([(flank, wall), (bottom, floor)], fixed, values, False)
+    bodies, ((right, left), (below, both)), fixed, values = three_blocks()
+    with pytest.raises(stickslip.Error, match=r"^start: the interfaces \[0, 1\] act on each other's nodes"):
+        bodies.solved([(right, np.vstack([left, bodies.face(2, 2, 1.5)])), (bodies.face(2, 2, 1.5), np.vstack([right]))], fixed, values, True)
+
+
 @pytest.mark.parametrize("mids", [False, True])
 def test_the_surface_is_drawn(blocks, mids, tmp_path):
     meshio = pytest.importorskip("meshio", reason="the surface is a mesh of meshio, which is not installed")

@@ -117,6 +117,7 @@ PRESSURE, LARGE_STRAIN_PRESSURE = 0.005 / (0.8 / 1000 + 0.8 / 2000), 4.173925662
     ("numpy_blocks.py", "numpy", SMALL_STRAIN, PRESSURE),
     ("scikit_fem_blocks.py", "skfem", SMALL_STRAIN, PRESSURE),
     ("fenicsx_blocks.py", "dolfinx", SMALL_STRAIN, PRESSURE),
+    ("sfepy_blocks.py", "sfepy", SMALL_STRAIN, PRESSURE),
     ("felupe_blocks.py", "felupe", LARGE_STRAIN, LARGE_STRAIN_PRESSURE),
 ])
 def test_two_blocks_are_the_drivers(name, package, steps, pressure, tmp_path):

@@ -82,6 +82,10 @@ pub unsafe extern "C" fn stickslip_interface_carriers(
 /// from given multipliers: at the old positions, host1 being the residual there plus J du, J the host's matrix with
 /// STICKSLIP_CONDENSED_FORCES.
 ///
+/// A component that the host prescribes has equation -1 in the surface, and at a node with multipliers none of these. Where the host
+/// fixes a row afterwards instead, its reaction is missing in host1 and the mortar side is given wrong forces, which no
+/// handle can notice.
+///
 /// Not with (UNSUPPORTED): standard multipliers (STICKSLIP_BASIS_STANDARD); points that decide (STICKSLIP_DECISION_POINTS);
 /// the augmented form (STICKSLIP_FORM_AUGMENTED); nodes that handles share (owned has STICKSLIP_NODE_SHARED); parts of an
 /// interface (owned has STICKSLIP_NODE_ELSEWHERE) and quadratic facets; parts of an interface (owned has
@@ -197,8 +201,9 @@ pub unsafe extern "C" fn stickslip_interface_condensed_coo(
 
 /// Turns the host's own matrix, compressed sparse rows, into that of the system without multipliers, in place: J + E J + G,
 /// see `stickslip_interface_condensed_coo`. Where multipliers follow from the displacements add the piece SCALES to it: its
-/// entries are there. Several interfaces of one matrix: none may have a mortar node that is
-/// non-mortar in another one.
+/// entries are there. Several interfaces of one matrix: call them in an order in which an interface whose forces act on a
+/// node comes before the one in which the node has a multiplier (docs/host_condensed.md). A node with multipliers in two of
+/// them gives wrong forces, which no handle can notice: `stickslip_crosspoints_find` names it as CLAIMED.
 ///
 /// x1, x2, lambda as there; n_rows, row_offsets, columns, values as for `stickslip_interface_tangent_csr`; only the rows of
 /// the interface's nodes are read and changed.

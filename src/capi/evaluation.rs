@@ -23,8 +23,8 @@ use crate::interface::{Contact, NodeSums};
 /// `stickslip_interface_set_friction` too): each decides by its own whether slip counts. An analytic mortar side covers
 /// every facet that faces it: it belongs to one handle, and none of the others may hold a mortar facet behind it.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX; INVALID_VALUE (the mortar surface lay in
-/// layers at t_n, and was not looked at because the surfaces were apart then); with an analytic mortar side also
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX; INVALID_VALUE (mortar facets lay on
+/// each other at t_n, and were not looked at because the surfaces were apart then); with an analytic mortar side also
 /// INVALID_VALUE (x2 is no rigid motion of the first frame) and UNDEFINED_NORMAL (a facet reaches its centre or axis).
 /// Cost: at other positions than those of the last evaluation one search and one integration (frozen weights:
 /// none), then O(pairs). Allocates what the handle has not had before: from the third call on, as long as about as many

@@ -8,10 +8,13 @@ use crate::error::{Error, Kind};
 
 /// Accepts a converged step: (x1, x2, lambda) becomes t_n; weights, normals, coverage and slip move on.
 ///
+/// Where the mortar surface lies in layers, the nearest facets over each non-mortar facet are its pairs until the next commit
+/// (docs/formulation.md 6.6); the creation, `stickslip_interface_set_previous` and `stickslip_interface_set_committed` settle it, too.
+///
 /// Inputs x1, x2, lambda, sums as for `stickslip_interface_states`.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (a
-/// mortar surface in layers, an analytic surface's frame), TURNED_TOO_FAR (by more than method.turn_max since the last commit;
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE
+/// (mortar facets on each other, in one place, an analytic surface's frame), TURNED_TOO_FAR (by more than method.turn_max since the last commit;
 /// with friction against each other, too), CONTACT_LOST (a closed node would lose a pair that is deeper than one may be, or all
 /// that covers it); then nothing has moved.
 /// Cost: as `stickslip_interface_states`, then O(n1 + n2) for what the next step needs. Of facets between which there can be
@@ -71,7 +74,7 @@ pub unsafe extern "C" fn stickslip_interface_rollback(interface: *mut stickslip_
 /// n_integers, n_reals, output.
 ///
 /// Errors: NULL_POINTER; where the weights of t_n were left out because the surfaces were apart, those of the commit,
-/// INVALID_VALUE (a mortar surface in layers) among them.
+/// INVALID_VALUE (mortar facets on each other) among them.
 /// Cost: none, or then one search and one integration.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_history_size(

@@ -26,7 +26,7 @@ use crate::memory::{self, Store, Stored};
 /// DEGENERATE_FACET, INVALID_VALUE (an option; a node without a facet; neighbouring facets with opposite node
 /// orders, a surface that branches or is folded; a mortar side given multipliers; a multiplier's equation that is that
 /// of a displacement or of another multiplier; a frame that is too small for where
-/// it is; a mortar surface in layers), MISSING_STIFFNESS, UNSUPPORTED, UNDEFINED_NORMAL, PROJECTION_NOT_CONVEX.
+/// it is; mortar facets on each other, in one place), MISSING_STIFFNESS, UNSUPPORTED, UNDEFINED_NORMAL, PROJECTION_NOT_CONVEX.
 /// Cost: one search, O((n1 + n2) log n2), and one integration of the pairs found; allocates.
 /// Owner: the caller, who ends it with `stickslip_interface_destroy`. Both surfaces and the options are
 /// copied: all arrays may be freed after the call.
@@ -197,8 +197,8 @@ pub unsafe extern "C" fn stickslip_interface_set_constraints(
 /// Takes (x1, x2), 3 n1 and 3 n2 [L], as the configuration of t_n with nothing slipped yet, in place of
 /// the first configuration. A commit before it can no longer be undone.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (a
-/// mortar surface in layers, an analytic surface's frame).
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE
+/// (mortar facets on each other, an analytic surface's frame).
 /// Cost: one search and one integration; allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_set_previous(
@@ -223,8 +223,8 @@ pub unsafe extern "C" fn stickslip_interface_set_previous(
 ///
 /// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS) and friction.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (commits < 0, a
-/// mortar surface in layers, an analytic surface's frame), UNSUPPORTED.
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (commits < 0,
+/// mortar facets on each other, an analytic surface's frame), UNSUPPORTED.
 /// Cost: one search and one integration; allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_set_committed(

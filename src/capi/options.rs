@@ -81,7 +81,7 @@ pub struct stickslip_options {
     /// [L]. 0 (default): any gap, and a penetration of one facet (the smaller of the two) beyond what the curved
     /// surfaces lie off their facets, so that the far side of a body is not found; a fine mortar surface that dips into
     /// coarse non-mortar facets is followed down from where it enters them, by as much as a coarse facet is long. Give it
-    /// where the mortar surface lies in layers (refused otherwise) or the surfaces start deeper in each other than a facet.
+    /// where the surfaces start deeper in each other than a facet. Of a mortar surface in layers the nearest facets are pairs.
     pub search_distance: f64,
 }
 

@@ -108,9 +108,11 @@ fn split(
 
 /// Kind of a shared node: non-mortar in more than one interface. Where it sticks or is tied in two of them, six
 /// conditions meet three displacements: leave it its multipliers in one of them and give it -1 in the others, or, where
-/// their normals differ, let it be without friction in all.
+/// their normals differ, let it be without friction in all. Interfaces that are condensed must have none: give it multipliers in
+/// one of them alone.
 pub const STICKSLIP_CROSSPOINT_CLAIMED: i32 = 1;
-/// Kind of a shared node: non-mortar in one interface, mortar in another one, a link of a chain. Fine.
+/// Kind of a shared node: non-mortar in one interface, mortar in another one, a link of a chain. Fine; where they are condensed,
+/// the one in which it is mortar comes first.
 pub const STICKSLIP_CROSSPOINT_CHAIN: i32 = 2;
 /// Kind of a shared node: on both sides of the same interface. It touches itself: leave the facets around it out of one
 /// side.

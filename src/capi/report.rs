@@ -15,7 +15,8 @@ pub const STICKSLIP_COVER_NONE: i32 = 0;
 pub const STICKSLIP_COVER_PART: i32 = 1;
 /// Cover of a node: all of its area, within 1 %.
 pub const STICKSLIP_COVER_FULL: i32 = 2;
-/// Cover of a node: several layers of the mortar surface, over a facet around it. A commit refuses them.
+/// Cover of a node: several layers of the mortar surface, over a facet around it. The next
+/// commit settles which are the nearest; at a seam a part of a facet may stay covered twice.
 pub const STICKSLIP_COVER_SEVERAL: i32 = 3;
 
 /// Finding: nothing is amiss with surfaces that lie over each other.

@@ -223,7 +223,10 @@ pub unsafe extern "C" fn stickslip_skin_set_constraints(
             for (k, (&node, direction)) in nodes.iter().zip(directions).enumerate() {
                 let place = node.checked_sub(h.base).and_then(|node| usize::try_from(node).ok());
                 let Some(place) = place.filter(|&place| place < h.inner.whole().nodes) else {
-                    return Err(Error::new(Kind::IndexOutOfRange, text!("nodes[{k}] is {node}; there is no such node")));
+                    return Err(Error::new(
+                        Kind::IndexOutOfRange,
+                        text!("nodes[{k}] is {node}; there is no such node"),
+                    ));
                 };
                 list.store((place, direction))?;
             }

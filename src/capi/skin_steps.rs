@@ -75,6 +75,23 @@ pub unsafe extern "C" fn stickslip_skin_commit(skin: *mut stickslip_skin, x: *co
     })
 }
 
+/// Exchanges the sides of all facets at t_n, for a step that fails however small it is: whether Newton's method converges may
+/// depend on the side that has the multipliers. Slips stay. Make the plan again, and solve the step once more from t_n.
+///
+/// lambda (3 copies) [F/L^2]: those of t_n, in and out: copies that take over have minus that of the nearest node of the other side.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, and those of `stickslip_skin_create`. No commit can be undone after it.
+/// Cost: that of the interfaces' creation. Allocates.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_skin_exchange(skin: *mut stickslip_skin, lambda: *mut f64) -> i32 {
+    guard(|| {
+        let h = skin_of(skin)?;
+        let mut values = h.multipliers(lambda)?;
+        h.inner.exchange(&mut values)?;
+        h.write(lambda, &values, "lambda")
+    })
+}
+
 /// Undoes the last commit exactly; the host takes its multipliers of then. Only one can be undone. Make the plan again.
 ///
 /// Errors: NULL_POINTER, NOTHING_TO_ROLL_BACK.

@@ -185,7 +185,9 @@ pub(super) fn refuse_multipliers(surface: &stickslip_surface, side: &str) -> Res
         [(!surface.multiplier_equations.is_null(), "multiplier_equations"), (!surface.owned.is_null(), "owned")]
     {
         if given {
-            let text = text!("{side}.{member} must be NULL: the non-mortar side of an interface alone has multipliers of the host's");
+            let text = text!(
+                "{side}.{member} must be NULL: the non-mortar side of an interface alone has multipliers of the host's"
+            );
             return Err(Error::new(Kind::InvalidValue, text));
         }
     }

@@ -180,7 +180,7 @@ impl<const N: usize> Cache<N> {
             return Ok(());
         }
         let Step { history, pairing, .. } = step;
-        match &pairing.filter {
+        match &mut pairing.filter {
             Some(filter) => commit::complete(setup.surfaces(), &setup.options, (history, filter), &mut self.work),
             None => Ok(()),
         }

@@ -17,6 +17,7 @@ use super::inspect::bytes;
 use super::inspect::describe;
 use super::linear::Linear;
 use super::pairing::given::{Given, NormalsAt, Step, check_finite};
+use super::pairing::hidden::Hidden;
 use super::pairing::settle::Pairing;
 use super::pairing::walls::backs;
 use super::stages::commit::{self, Known, Settled};
@@ -40,7 +41,7 @@ pub type Interface = Contact<3>;
 pub struct Contact<const N: usize> {
     pub(super) setup: Setup<N>,
     pub(super) step: Step,
-    pub(super) rollback: Option<History>,
+    pub(super) rollback: Option<Before>,
     /// Memory for the history that a commit makes; `None`: it takes new one.
     spare: Option<History>,
     pub(super) cache: Cache<N>,
@@ -97,6 +98,13 @@ impl Contact<1> {
         let mu = memory::filled(0.0, nonmortar.len())?;
         Self::build(Setup::new((nonmortar, mortar), multiplier_equations, options, mu, effects)?)
     }
+}
+
+/// What the last commit has replaced.
+#[derive(Debug)]
+pub(super) struct Before {
+    history: History,
+    hidden: Hidden,
 }
 
 /// What a commit would put in place.
@@ -294,7 +302,8 @@ impl<const N: usize> Contact<N> {
             + bytes::of_pairing(&self.step.pairing)
             + self.step.now.as_ref().map_or(0, bytes::of_normals)
             + bytes::of_normals(&self.step.room)
-            + [&self.rollback, &self.spare].into_iter().flatten().map(bytes::of_history).sum::<usize>()
+            + self.rollback.as_ref().map_or(0, |b| bytes::of_history(&b.history) + bytes::of_hidden(&b.hidden))
+            + self.spare.as_ref().map_or(0, bytes::of_history)
             + bytes::of_residual(&self.residual)
             + self.cache.bytes()
             + self.linear.bytes()
@@ -304,18 +313,19 @@ impl<const N: usize> Contact<N> {
 /// Steps.
 impl<const N: usize> Contact<N> {
     /// Puts a history in place with what belongs to its configuration; gives the old one back.
-    fn adopt(&mut self, settled: Settled) -> Result<History> {
+    fn adopt(&mut self, settled: Settled) -> Result<Before> {
         let pairing = Pairing::new(&self.setup, settled.filter, &settled.history)?;
         Ok(self.put_in_place(pairing, settled.history, settled.active))
     }
 
-    fn put_in_place(&mut self, pairing: Pairing, history: History, active: bool) -> History {
+    fn put_in_place(&mut self, pairing: Pairing, history: History, active: bool) -> Before {
         self.step.forget_normals();
+        let hidden = self.step.pairing.take_hidden();
         (self.step.pairing, self.step.normals) = (pairing, self.setup.options.normals);
-        let old = std::mem::replace(&mut self.step.history, history);
+        let history = std::mem::replace(&mut self.step.history, history);
         self.cache.begin(&self.step.history, active);
         self.linear.forget();
-        old
+        Before { history, hidden }
     }
 
     /// Takes (x1, x2) as the configuration of t_n, with nothing slipped yet, instead of the reference.
@@ -383,7 +393,7 @@ impl<const N: usize> Contact<N> {
         if let Some(points) = next.points {
             self.cache.settle_points(points);
         }
-        self.spare = self.rollback.replace(old);
+        self.spare = self.rollback.replace(old).map(|before| before.history);
         Ok(())
     }
 
@@ -466,12 +476,14 @@ impl<const N: usize> Contact<N> {
     /// # Errors
     /// [`Kind::NothingToRollBack`] when there is none; only one commit can be undone.
     pub fn roll_back(&mut self) -> Result<()> {
-        let Some(history) = &self.rollback else {
+        let Some(Before { history, .. }) = &self.rollback else {
             let text = "no commit can be undone: none was made since creation, import or the last rollback";
             return Err(Error::new(Kind::NothingToRollBack, text));
         };
-        let pairing = Pairing::again(&self.setup, history)?;
-        if let Some(history) = self.rollback.take() {
+        let filter = commit::filter_of(self.setup.surfaces(), &self.setup.options, history)?;
+        let mut pairing = Pairing::new(&self.setup, filter, history)?;
+        if let Some(Before { history, hidden }) = self.rollback.take() {
+            pairing.put_hidden(hidden);
             self.put_in_place(pairing, history, false);
         }
         Ok(())
@@ -496,7 +508,8 @@ impl<const N: usize> Contact<N> {
     /// Replaces the history by an imported one, after which no commit can be undone.
     pub fn import_history(&mut self, integers: &[i64], reals: &[f64]) -> Result<()> {
         let history = History::import((integers, reals), &self.host())?;
-        let next = self.begin(Pairing::again(&self.setup, &history)?, history);
+        let filter = commit::filter_again(self.setup.surfaces(), &self.setup.options, &history, &mut self.cache.work)?;
+        let next = self.begin(Pairing::new(&self.setup, filter, &history)?, history);
         if self.setup.has_point_friction() {
             Points::default().check_memory(Given { setup: &self.setup, step: &next })?;
         }

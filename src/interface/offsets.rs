@@ -8,6 +8,7 @@ use super::data::options::Weights;
 use super::data::shape_offsets::shape_offsets;
 use super::inspect::adjust::{Adjusted, adjusted};
 use super::pairing::settle::Pairing;
+use super::stages::commit;
 use crate::error::Result;
 use crate::features;
 use crate::geometry::{AnalyticSurface, Vec3};
@@ -48,7 +49,9 @@ impl<const N: usize> Contact<N> {
         let weights = self.setup.options.effective_weights();
         if self.step.history.commits > 0 {
             if weights == Weights::Current {
-                self.step.pairing = Pairing::again(&self.setup, &self.step.history)?;
+                let (surfaces, history) = (self.setup.surfaces(), &self.step.history);
+                let filter = commit::filter_again(surfaces, &self.setup.options, history, &mut self.cache.work)?;
+                self.step.pairing = Pairing::new(&self.setup, filter, history)?;
                 self.linear.forget();
             }
             return Ok(());

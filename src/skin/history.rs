@@ -3,7 +3,6 @@
 //! Integers: the layout, the checksum, nodes, facets, commits, pieces; the sides of the facets; piece by piece how many facets of
 //! three kinds, integers and reals it has, and these. Reals: positions of t_n, the motion before it, then those of the pieces.
 
-use super::near::near;
 use super::piece::Held;
 use super::pieces::Piece;
 use super::roles::{Role, Sides};
@@ -57,14 +56,15 @@ impl Skin {
         let x: Vec<_> = rest.reals(3 * n)?.chunks_exact(3).map(Vec3::from_column_slice).stored()?;
         let (motion, mut held) = (rest.reals(1)?[0], Vec::new());
         for _ in 0..head[5] {
-            let lengths: Vec<_> = rest.integers(5)?.iter().map(|&n| usize::try_from(n).unwrap_or(usize::MAX)).stored()?;
+            let lengths: Vec<_> =
+                rest.integers(5)?.iter().map(|&n| usize::try_from(n).unwrap_or(usize::MAX)).stored()?;
             let mut list = |k: usize| rest.integers(lengths[k])?.iter().map(|&f| facet_of(f, facets)).stored_if_ok();
             let piece = Piece { own: list(0)?, ring: list(1)?, mortar: list(2)? };
             let mut one = Held::new(&self.whole, piece, &self.rules)?;
             one.contact.import_history(rest.integers(lengths[3])?, rest.reals(lengths[4])?)?;
             held.store(one)?;
         }
-        let near = near(&self.whole, &self.whole.places(&x)?, self.reach(motion), &self.rules.table)?;
+        let near = self.look(&x, motion)?;
         let sides = Sides { roles, ..Sides::default() };
         self.put_in_place(Start { x, commits: head[4], motion, sides, near }, held)
     }

@@ -18,7 +18,7 @@ const DEEPEST: f64 = 1.0;
 /// How far a skin looks, over a facet's longest edge, at least.
 const LEAST_REACH: f64 = 0.5;
 /// And how far beyond that, over the largest motion of the last step: a step may be as large again.
-pub const MOTIONS: f64 = 2.0;
+const MOTIONS: f64 = 2.0;
 
 /// Two facets that may touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,8 +59,7 @@ impl Seen {
         let centre = |facet: &Facet| facet.points().iter().sum::<Vec3>() / facet.points().len() as f64;
         let centres: Vec<_> = facets.iter().map(centre).stored()?;
         // A facet without an area looks nowhere, and meets none.
-        let normals: Vec<_> =
-            facets.iter().map(|f| f.area_vector().try_normalize(0.0).unwrap_or_default()).stored()?;
+        let normals: Vec<_> = facets.iter().map(|f| f.area_vector().try_normalize(0.0).unwrap_or_default()).stored()?;
         let sizes = facets.iter().map(Facet::longest_edge).stored()?;
         let wall = |f: usize| match whole.surface.backs.get(f) {
             Some(&back) if back != NO_FACET => normals[f].dot(&(centres[f] - centres[back as usize])).max(0.0),

@@ -1,7 +1,7 @@
 //! The skin's handle: its pieces are asked one after the other, and made anew at a commit where what may touch has changed.
 
 use super::missed::are_in_each_other;
-use super::near::{MOTIONS, Near, Reach, near};
+use super::near::{Near, Reach, near};
 use super::piece::{Held, Rules};
 use super::pieces::{Wanted, has_all, pieces};
 use super::roles::{Role, Sides, sides};
@@ -46,8 +46,6 @@ pub struct Skin {
     /// Whether the plans are of these pieces.
     pub(super) is_planned: bool,
     pub(super) counts: Counts,
-    /// How far the host says that it looks; after a step that was refused since facets met out of reach the pieces look farther.
-    given: Option<f64>,
     before: Option<Before>,
 }
 
@@ -103,7 +101,7 @@ impl Skin {
         let x = reference(&whole)?;
         let rules = Rules { options, table: Table::default(), constraints: Vec::new() };
         let (start, counts) = (Start { x, ..Start::default() }, Counts::default());
-        let mut skin = Skin { whole, rules, held: Vec::new(), start, is_planned: false, counts, given: options.search_distance, before: None };
+        let mut skin = Skin { whole, rules, held: Vec::new(), start, is_planned: false, counts, before: None };
         skin.begin(0.0)?;
         Ok(skin)
     }
@@ -174,8 +172,7 @@ impl Skin {
 
     /// Takes the pieces that t_n asks for, with room for a motion; none of them has been there before.
     fn begin(&mut self, motion: f64) -> Result<()> {
-        let places = self.whole.places(&self.start.x)?;
-        let near = near(&self.whole, &places, self.reach(motion), &self.rules.table)?;
+        let near = self.look(&self.start.x, motion)?;
         let sides = sides(&self.whole, &near, &self.start.sides.roles)?;
         let wanted = pieces(&self.whole, &sides.roles, &near)?;
         let mut held = memory::with_room(wanted.len())?;
@@ -195,20 +192,25 @@ impl Skin {
             return self.begin(motion);
         }
         let (x, commits) = (memory::copied(&self.start.x)?, self.start.commits);
-        let brought = self.brought_from_start()?;
-        let (start, next, _) = self.follow(x, (motion, commits), &brought)?;
+        let (near, brought) = (self.look(&x, motion)?, self.brought_from_start()?);
+        let start = Start { x, commits, motion, sides: Sides::default(), near };
+        let (start, next, _) = self.follow(start, &self.start.sides.roles, &brought)?;
         self.replace(start, next)?;
         self.before = None;
         Ok(())
     }
 
-    pub(super) fn reach(&self, motion: f64) -> Reach {
-        self.rules.options.search_distance.map_or(Reach::Motion(motion), Reach::Given)
+    /// The pairs of facets that may touch where the host's nodes are at `x`, after a step with this motion.
+    pub(super) fn look(&self, x: &[Vec3], motion: f64) -> Result<Vec<Near>> {
+        let reach = self.rules.options.search_distance.map_or(Reach::Motion(motion), Reach::Given);
+        near(&self.whole, &self.whole.places(x)?, reach, &self.rules.table)
     }
 
-    /// The largest motion of any node since t_n `[L]`.
+    /// The largest motion of any node since t_n, beside the mean of all: what moves as a whole comes no nearer `[L]`.
     fn motion_to(&self, x: &[Vec3]) -> f64 {
-        self.start.x.iter().zip(x).map(|(from, to)| (to - from).norm()).fold(0.0, f64::max)
+        let motions = || self.start.x.iter().zip(x).map(|(from, to)| to - from);
+        let mean = motions().sum::<Vec3>() / x.len() as f64;
+        motions().map(|motion| (motion - mean).norm()).fold(0.0, f64::max)
     }
 
     /// Takes the pieces and the start of another time, after which no commit can be undone.
@@ -218,37 +220,60 @@ impl Skin {
         Ok(())
     }
 
+    /// Exchanges the sides of all facets at t_n, for a step that does not converge however small it is: that may depend on the side
+    /// that has the multipliers. Writes the multipliers of t_n of the copies that take over.
+    pub fn exchange(&mut self, lambda: &mut [Vec3]) -> Result<()> {
+        self.check(&self.start.x, lambda)?;
+        let other = |role: &Role| match role {
+            Role::None => Role::None,
+            Role::Nonmortar => Role::Mortar,
+            Role::Mortar => Role::Nonmortar,
+        };
+        let before: Vec<_> = self.start.sides.roles.iter().map(other).stored()?;
+        let mut brought = self.brought_from_start()?;
+        brought.lambda.copy_from_slice(lambda);
+        let Start { commits, motion, .. } = self.start;
+        let (x, near) = (memory::copied(&self.start.x)?, memory::copied(&self.start.near)?);
+        let start = Start { x, commits, motion, sides: Sides::default(), near };
+        let (mut start, next, taken) = self.follow(start, &before, &brought)?;
+        let exchanged = |(now, before): &(&Role, &Role)| **now != Role::None && now == before;
+        start.sides.exchanged = start.sides.roles.iter().zip(&before).filter(exchanged).count();
+        self.replace(start, next)?;
+        self.before = None;
+        taken.iter().for_each(|&(a, of_other)| lambda[a] = of_other);
+        self.clear_unclaimed(lambda)
+    }
+
+    /// Copies that are in no piece have no multiplier.
+    fn clear_unclaimed(&self, lambda: &mut [Vec3]) -> Result<()> {
+        let claimed = self.claimed()?;
+        lambda.iter_mut().zip(claimed).filter(|(_, claimed)| !claimed).for_each(|(l, _)| *l = Vec3::zeros());
+        Ok(())
+    }
+
     /// Accepts a converged step: `x` becomes t_n. Writes the multipliers of copies that have none any more, or that take over from
     /// the other side.
     pub fn commit(&mut self, x: &[Vec3], lambda: &mut [Vec3]) -> Result<()> {
         self.check(x, lambda)?;
         let motion = self.motion_to(x);
-        self.refuse_missed(x, motion)?;
-        self.rules.options.search_distance = self.given;
-        let mut brought = self.brought_by(x, lambda)?;
+        let near = self.look(x, motion)?;
+        self.refuse_missed(x, (&near, motion))?;
+        let brought = self.brought_by(x, lambda)?;
         for held in &mut self.held {
             let (contact, room) = held.at(&self.whole, x, lambda)?;
             contact.check_commit(&room.x[0], &room.x[1], &room.lambda, None)?;
         }
         let commits = self.start.commits.saturating_add(1);
-        let (start, next, taken) = self.follow(memory::copied(x)?, (motion, commits), &brought)?;
-        taken.iter().for_each(|&(a, of_other)| brought.lambda[a] = of_other);
+        let start = Start { x: memory::copied(x)?, commits, motion, sides: Sides::default(), near };
+        let (start, next, taken) = self.follow(start, &self.start.sides.roles, &brought)?;
         // From here on nothing is refused but for want of memory.
         for k in next.iter().filter_map(|next| if let Next::Kept(k) = next { Some(*k) } else { None }) {
             let (contact, room) = self.held[k].at(&self.whole, x, lambda)?;
             contact.commit(&room.x[0], &room.x[1], &room.lambda, None)?;
         }
         self.replace(start, next)?;
-        for (a, lambda) in lambda.iter_mut().enumerate() {
-            *lambda = if brought.had[a] || taken.binary_search_by_key(&a, |t| t.0).is_ok() {
-                brought.lambda[a]
-            } else {
-                Vec3::zeros()
-            };
-        }
-        let claimed = self.claimed()?;
-        lambda.iter_mut().zip(claimed).filter(|(_, claimed)| !claimed).for_each(|(l, _)| *l = Vec3::zeros());
-        Ok(())
+        taken.iter().for_each(|&(a, of_other)| lambda[a] = of_other);
+        self.clear_unclaimed(lambda)
     }
 
     /// Undoes the last commit exactly; the host takes its multipliers of then.
@@ -278,9 +303,8 @@ impl Skin {
 
     /// Refuses a step after which facets lie in each other that no piece has as a pair. The pieces are then made with these pairs at
     /// t_n, so that the same step may be solved again.
-    fn refuse_missed(&mut self, x: &[Vec3], motion: f64) -> Result<()> {
+    fn refuse_missed(&mut self, x: &[Vec3], (now, motion): (&[Near], f64)) -> Result<()> {
         let places = self.whole.places(x)?;
-        let now = near(&self.whole, &places, self.reach(motion), &self.rules.table)?;
         let size = |f: usize| {
             let nodes = self.whole.surface.host_nodes(f);
             let edge = |k: usize| (places[nodes[k]] - places[nodes[(k + 1) % nodes.len()]]).norm();
@@ -303,23 +327,21 @@ impl Skin {
             "facets {f} and {g} of the skin have met within the step, and {} pairs in all, but were out of reach at its start; they are looked for now: solve the step again from t_n, or a smaller one",
             missed.len()
         );
-        self.rules.options.search_distance = self.given.map(|reach| reach.max(MOTIONS * motion));
         self.begin_anew(motion)?;
         Err(Error::new(Kind::ContactLost, text))
     }
 
-    /// What the step that follows t_n = `x` has: where it begins, its pieces, and the multipliers that copies take over from the other
-    /// side, in the order of the copies.
+    /// What the step that follows has: where it begins, its sides too, its pieces, and the multipliers that copies take over from the
+    /// other side, in the order of the copies. `before`: the sides that facets have so far.
     fn follow(
         &self,
-        x: Vec<Vec3>,
-        (motion, commits): (f64, i64),
+        start: Start,
+        before: &[Role],
         brought: &Brought,
     ) -> Result<(Start, Vec<Next>, Vec<(usize, Vec3)>)> {
-        let places = self.whole.places(&x)?;
-        let near = near(&self.whole, &places, self.reach(motion), &self.rules.table)?;
-        let sides = sides(&self.whole, &near, &self.start.sides.roles)?;
-        let wanted = pieces(&self.whole, &sides.roles, &near)?;
+        let places = self.whole.places(&start.x)?;
+        let sides = sides(&self.whole, &start.near, before)?;
+        let wanted = pieces(&self.whole, &sides.roles, &start.near)?;
         let (mut next, mut taken) = (memory::with_room(wanted.len())?, Vec::new());
         for Wanted { piece, partners } in wanted {
             let is_same = |held: &Held| held.piece.own == piece.own && has_all(&held.piece.mortar, &partners);
@@ -337,12 +359,12 @@ impl Skin {
                     taken.store((a, -brought.lambda[other]))?;
                 }
             }
-            let (contact, room) = made.at(&self.whole, &x, &[])?;
-            contact.set_committed(&room.x[0], &room.x[1], &slip, commits)?;
+            let (contact, room) = made.at(&self.whole, &start.x, &[])?;
+            contact.set_committed(&room.x[0], &room.x[1], &slip, start.commits)?;
             next.store(Next::Made(made))?;
         }
         let taken = memory::sorted(&taken, |p, q| p.0.cmp(&q.0))?;
-        Ok((Start { x, commits, motion, sides, near }, next, taken))
+        Ok((Start { sides, ..start }, next, taken))
     }
 
     /// Puts the next step in place; what is dropped is kept for a rollback.

@@ -45,3 +45,15 @@ def pressed_circle(x, radius, peak, young, poisson):
     u *= (1 + poisson) / (2 * np.pi * young)
     u[:, 2] += np.pi * peak * radius * (1 - poisson**2) / (2 * young)
     return u
+
+
+def under_forces(x, places, forces, young, poisson):
+    """(n, 2) of a half-plane under forces (m, 2) at `places` of its surface, per unit thickness, up to a translation: Flamant. A
+    traction's Gauss points, seen from beyond its ends, are the traction."""
+    kappa, u = 3 - 4 * poisson, np.zeros(len(x), complex)
+    for place, force in zip(places, forces):
+        z, a = x[:, 0] - place + 1j * x[:, 1], -(force[0] + 1j * force[1]) / (2 * np.pi)
+        log = np.log(np.abs(z)) + 1j * np.arctan2(z.real, -z.imag)  # the angle from straight below
+        u += a * (kappa * log + log.conj()) - np.conj(a) * z / z.conj()
+    u *= (1 + poisson) / young
+    return np.stack([u.real, u.imag], axis=1)

@@ -1,6 +1,6 @@
 """Where the tools are. Importing this puts their folders on the path, for a study uses checks and drawings of others.
 
-One way: common <- tests/acceptance <- gallery <- accuracy <- demo, effects, aids, method, peers, border.
+One way: common <- tests/acceptance <- gallery <- accuracy <- demo, effects, aids, method, peers, border, exact.
 """
 
 import sys

@@ -93,6 +93,107 @@ class PointContact:
         return 16 / 3 * shear_modulus * self.contact_radius**3
 
 
+@dataclass
+class Wave:
+    """Westergaard: a surface height (1 - cos 2 pi x / length) pressed onto a flat one; x = 0 touches first."""
+
+    length: float
+    height: float
+    modulus: float  # of both bodies together
+
+    @property
+    def closing(self):
+        """The mean pressure that closes the last gap."""
+        return np.pi * self.modulus * self.height / self.length
+
+    def gap(self, x):
+        return self.height * (1 - np.cos(2 * np.pi * x / self.length))
+
+    def mean_pressure(self, half_width):
+        return self.closing * np.sin(np.pi * half_width / self.length) ** 2
+
+    def half_width(self, mean_pressure):
+        return self.length / np.pi * np.arcsin(np.sqrt(np.minimum(1, mean_pressure / self.closing)))
+
+    def pressure(self, x, half_width):
+        sine, border = np.sin(np.pi * x / self.length), np.sin(np.pi * half_width / self.length)
+        return 2 * self.closing * np.cos(np.pi * x / self.length) * np.sqrt(np.maximum(0, border**2 - sine**2))
+
+
+@dataclass
+class SlidingPunch:
+    """A flat rigid punch of half-width 1 that slides along -x over a half-plane, friction everywhere (Johnson 2.8): most
+    pressure is behind."""
+
+    force: float
+    mu: float
+    poisson: float
+
+    @property
+    def power(self):
+        return np.arctan(self.mu * (1 - 2 * self.poisson) / (2 * (1 - self.poisson))) / np.pi
+
+    def pressure(self, x):
+        g = self.power
+        return self.force * np.cos(np.pi * g) / np.pi * (1 + x) ** (g - 0.5) * (1 - x) ** (-g - 0.5)
+
+    def nodal_force(self, x, quadratic=False):
+        """Its integrals with the nodes' functions. Powers are infinite at both ends: with s = (1 + x)^(g + 1/2), or as much from the
+        other end, they are smooth."""
+        nodes, weights = np.polynomial.legendre.leggauss(60)
+        t, step = (nodes + 1) / 2, 2 if quadratic else 1
+        found = np.zeros(len(x))
+        for first in range(0, len(x) - 1, step):
+            left, right = x[first], x[first + step]
+            end = 1 if left < 0 else -1  # the nearer one is at -end
+            power = self.power * end + 0.5
+            low, high = sorted((1 + end * np.array([left, right])) ** power)
+            s = low + (high - low) * t
+            far = s ** (1 / power)  # from the nearer end
+            at = end * (far - 1)
+            smooth = (2 - far) ** (-self.power * end - 0.5) / power * weights * (high - low) / 2
+            p = self.force * np.cos(np.pi * self.power) / np.pi * smooth
+            r = (at - left) / (right - left)
+            shapes = [(1 - r) * (1 - 2 * r), 4 * r * (1 - r), r * (2 * r - 1)] if quadratic else [1 - r, r]
+            for k, shape in enumerate(shapes):
+                found[first + k] += shape @ p
+        return found
+
+
+@dataclass
+class RoundedPunch:
+    """A rigid punch, flat as far as `flat`, then rounded with `radius`, that touches a half-plane as far as `half_width` (Ciavarella,
+    Hills and Monno 1998)."""
+
+    flat: float
+    half_width: float
+    radius: float
+    modulus: float
+
+    @property
+    def angle(self):
+        return np.arcsin(self.flat / self.half_width)
+
+    @property
+    def force(self):
+        f = self.angle
+        shape = (np.pi - 2 * f) / (2 * np.sin(f) ** 2) - 1 / np.tan(f)
+        return self.flat**2 * self.modulus / (2 * self.radius) * shape
+
+    def rise(self, x):
+        return np.maximum(0, np.abs(x) - self.flat) ** 2 / (2 * self.radius)
+
+    def pressure(self, x):
+        a, f = self.half_width, self.angle
+        inside = np.minimum(np.abs(x) / a, 1)
+        angle = np.arcsin(inside)
+        far, near = np.abs(np.sin(angle + f)), np.maximum(np.abs(np.sin(angle - f)), 1e-300)
+        tangents = np.maximum(np.abs(np.tan((angle + f) / 2) * np.tan((angle - f) / 2)), 1e-300)
+        shape = (np.pi - 2 * f) * np.cos(angle) + inside * np.log(far / near) + np.sin(f) * np.log(tangents)
+        scale = 2 * self.force / (np.pi * a * (np.pi - 2 * f - np.sin(2 * f)))
+        return np.where(np.abs(x) < a, scale * shape, 0.0)
+
+
 def elliptic_potential(zeta, a, slope):
     """(h, h') at zeta = x + i depth in a half-plane: a harmonic function F with F_d = Re h, F_x = Im h, h = 0 at zeta = 0, whose
     F_dd on the surface is `slope` sqrt(a^2 - x^2), and 0 beyond a. On the surface within a only x > 0 is right, and a
@@ -116,6 +217,21 @@ def nodal_mean(function, x):
         total[i + 1] += values @ share
     length = np.append(np.diff(x) / 2, 0) + np.append(0, np.diff(x) / 2)
     return total / length
+
+
+def nodal_shares(x, quadratic=False, points=200):
+    """Points over all facets of a line, and each node's function times the weights there; every other node of quadratic facets
+    is in the middle of one. A pressure that ends in a root within a facet takes many points."""
+    nodes, weights = np.polynomial.legendre.leggauss(points)
+    t, step = (nodes + 1) / 2, 2 if quadratic else 1
+    shapes = [(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)] if quadratic else [1 - t, t]
+    at, share = [], np.zeros((len(x), (len(x) - 1) // step * points))
+    for facet, first in enumerate(range(0, len(x) - 1, step)):
+        left, right = x[first], x[first + step]
+        at.append(left + (right - left) * t)
+        for k, shape in enumerate(shapes):
+            share[first + k, facet * points : (facet + 1) * points] = shape * weights * (right - left) / 2
+    return np.concatenate(at), share
 
 
 def shrink_fit_free(interference, b, bore, outer, young):

@@ -19,12 +19,14 @@ matplotlib.use("Agg")  # no display is needed
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
 import folders  # noqa: E402  (puts the others on the path)
+import gallery_exact  # noqa: E402
 import gallery_page  # noqa: E402
-from gallery_scenes import ENTRIES  # noqa: E402
+import gallery_scenes  # noqa: E402
 from scene import Driver, SceneError  # noqa: E402
 from verdict import Verdicts  # noqa: E402
 
 COMMITTED_FIGURES = folders.FIGURES
+ENTRIES = [*gallery_scenes.ENTRIES, *gallery_exact.ENTRIES]
 
 
 class Progress:

@@ -17,6 +17,7 @@ from dynamics import dynamics  # noqa: E402
 from dynamics_finite import finite  # noqa: E402
 from dynamics_mass import mass  # noqa: E402
 from effect_checks import effects  # noqa: E402
+from exact import exact, exact_friction, exact_gears, exact_rolling  # noqa: E402
 from friction_checks import friction  # noqa: E402
 from hosts import hosts  # noqa: E402
 from iterative import iterative, iterative_scenes  # noqa: E402
@@ -68,6 +69,10 @@ GROUPS = {
     "dual_full": dual_full,  # minutes; not among the tests
     "dual_iterations": dual_iterations,  # a quarter of an hour; not among the tests
     "effects": effects,
+    "exact": exact,
+    "exact_friction": exact_friction,
+    "exact_gears": exact_gears,
+    "exact_rolling": exact_rolling,
     "friction": friction,
     "hosts": hosts,
     "iterative": iterative,

@@ -12,7 +12,9 @@ SQUARE = (((0, 0), (1, 0), (1, 1), (0, 1)),)
 
 
 class PlaneMesh:
-    def __init__(self, kind, x, y, clockwise):
+    def __init__(self, kind, x, y, clockwise, bend=list):
+        """`bend` moves each node."""
+        self.bend = bend
         self.kind, self.planes, self.numbers, self.points = kind, (x, y), {}, []
         self.cells, self.edges = [], {side: [] for side in SIDES}
         for place in itertools.product(range(len(x) - 1), range(len(y) - 1)):
@@ -26,7 +28,7 @@ class PlaneMesh:
         if key not in self.numbers:
             self.numbers[key] = len(self.points) + 1
             low, high = np.floor(step).astype(int), np.ceil(step).astype(int)
-            self.points.append([(planes[a] + planes[b]) / 2 for planes, a, b in zip(self.planes, low, high)])
+            self.points.append(self.bend([(planes[a] + planes[b]) / 2 for planes, a, b in zip(self.planes, low, high)]))
         return self.numbers[key]
 
     def _add(self, corners):

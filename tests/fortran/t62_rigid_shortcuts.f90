@@ -206,7 +206,7 @@ contains
     s%lambda = spread([0.1d0, 0.1d0, -0.5d0], 2, NA)
   end subroutine
 
-  ! A mortar surface in two layers, 50 away: found when it comes near, or when the history of t_n is asked for.
+  ! Two mortar facets on each other, 50 away: found when it comes near, or when the history of t_n is asked for.
   subroutine check_layers()
     real(c_double), target :: upper(3, 4), lower(3, 8), near(3, 4)
     real(c_double) :: zero(3, 4), sums(STICKSLIP_SUMS_PER_NODE, 4), force1(3, 4), force2(3, 8), rows(3, 4)
@@ -219,7 +219,7 @@ contains
     type(stickslip_interface) :: layers
     type(stickslip_states) :: out
     upper = reshape([0, 0, 50, 0, 1, 50, 1, 1, 50, 1, 0, 50], [3, 4])
-    lower = reshape([-1, -1, -1, 2, -1, -1, 2, 2, -1, -1, 2, -1, -1, -1, -4, 2, -1, -4, 2, 2, -4, -1, 2, -4], [3, 8])
+    lower = reshape([-1, -1, -1, 2, -1, -1, 2, 2, -1, -1, 2, -1, -1, -1, -1, 2, -1, -1, 2, 2, -1, -1, 2, -1], [3, 8])
     lower(3, :) = lower(3, :) / 10
     near = upper
     near(3, :) = 0
@@ -250,11 +250,11 @@ contains
     out%state = c_loc(states)
     do again = 1, 2
       status = stickslip_interface_residual(layers, near, lower, zero, c_null_ptr, force1, force2, rows)
-      CHECK_REFUSED(status, STICKSLIP_INVALID_VALUE, 'layers')
+      CHECK_REFUSED(status, STICKSLIP_INVALID_VALUE, 'lie on each other')
       status = stickslip_interface_states(layers, near, lower, zero, c_null_ptr, out)
-      CHECK_REFUSED(status, STICKSLIP_INVALID_VALUE, 'layers')
-      CHECK_REFUSED(stickslip_interface_sums(layers, near, lower, sums), STICKSLIP_INVALID_VALUE, 'layers')
-      CHECK_REFUSED(stickslip_interface_history_size(layers, integers, reals), STICKSLIP_INVALID_VALUE, 'layers')
+      CHECK_REFUSED(status, STICKSLIP_INVALID_VALUE, 'lie on each other')
+      CHECK_REFUSED(stickslip_interface_sums(layers, near, lower, sums), STICKSLIP_INVALID_VALUE, 'lie on each other')
+      CHECK_REFUSED(stickslip_interface_history_size(layers, integers, reals), STICKSLIP_INVALID_VALUE, 'lie on each other')
     end do
     CHECK_UNTOUCHED(force1)
     CHECK_UNTOUCHED(force2)

@@ -116,7 +116,7 @@ def test_tree(tree):
     files = sorted(str(p.relative_to(tree.prefix)) for p in tree.prefix.rglob("*") if not p.is_dir())
     listed = (tree.prefix / "share/stickslip/installed.txt").read_text().splitlines()
     expect(files == sorted(listed), f"the uninstall list names the {len(files)} files that are there")
-    for name in ("include/stickslip.h", "include/stickslip.f90", "lib/libstickslip.a", "lib/pkgconfig/stickslip.pc",
+    for name in ("include/stickslip.h", "include/stickslip.hpp", "include/stickslip.f90", "lib/libstickslip.a", "lib/pkgconfig/stickslip.pc",
                  "lib/cmake/stickslip/stickslip-config.cmake", "share/doc/stickslip/docs/plug_in.md",
                  "share/doc/stickslip/docs/host_convergence.md", "share/doc/stickslip/c_examples/scenes/interface.md"):
         expect(name in files, name)

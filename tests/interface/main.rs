@@ -21,6 +21,7 @@ mod equilibrium;
 mod golden;
 mod golden_parts;
 mod heat;
+mod hidden;
 mod history;
 mod identities;
 mod lag;

@@ -46,7 +46,7 @@ const HARMLESS: [(&str, &str, &str); 7] = [
     ("capi/guard.rs", "set_hook(Box::new(|info|", "a closure that holds nothing"),
     ("interface/stages/commit.rs", "active.insert(", "into an Option"),
     ("interface/pairing/filter.rs", "smooth.clone()", "an iterator"),
-    ("interface/stages/layers.rs", "polygon.clone()", "a stack of a fixed size"),
+    ("interface/stages/over.rs", "polygon.clone()", "a stack of a fixed size"),
     ("interface/tangent/blocks.rs", "sink.reserve(", "a sink keeps its refusal for who asked for the entries"),
     ("interface/pairing/search.rs", "pending.push(", "a stack of a fixed size"),
     ("threads.rs", "thread.join()", "waits for a thread"),

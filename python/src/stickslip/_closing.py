@@ -54,7 +54,7 @@ class Closing:
     def begin(self, x: Reals, force: bool) -> None:
         """Settles whether this step needs it."""
         # Where the host has left unknowns out, its matrix does not tell what holds a body.
-        self.active = force or (not (self.contact.dofs < 0).any() and self.loose(x))
+        self.active = force or (not (self.contact._numbers < 0).any() and self.loose(x))
         self.whole = 0 if self.active else _SETTLED
 
     def shifted(self, A: scipy.sparse.csr_matrix, x: Reals, norm: float) -> scipy.sparse.csr_matrix:
@@ -66,7 +66,8 @@ class Closing:
         self.first = self.first or norm
         shift = self.shift if self.loose(x) else max(_LOOSE * min(norm / self.first, 1.0), _HELD)
         diagonal = np.zeros(A.shape[0])
-        diagonal[: self.contact.n_host] = shift * np.abs(A.diagonal()[: self.contact.n_host])
+        own = np.abs(A.diagonal()[: self.contact.n_host])
+        diagonal[: self.contact.n_host] = shift * np.maximum(own, own.max() * self.contact._rigid.stiffness(self.contact.n_host, self.size))
         return (A + scipy.sparse.diags(diagonal)).tocsr()
 
     def shortened(self, x: Reals, step: Reals) -> Reals:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from graphlib import CycleError, TopologicalSorter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -117,6 +118,15 @@ class Pair:
         x1 = self.X1 + u[self.nodes1]
         return x1, self.mortar.coordinates + (0.0 if self.nodes2 is None else u[self.nodes2])
 
+    def bearing(self) -> Integers:
+        """The equations of nodes that have multipliers."""
+        numbers: Integers = np.unique(self.equations1[self.mask.reshape(len(self.mask), -1).any(axis=1)])
+        return numbers[numbers >= 0]
+
+    def drawn(self, u: Reals) -> tuple[Reals, list[Integers]]:
+        """Where the nodes of the first side are, and its facets."""
+        return self.positions(u)[0], self.facets1
+
     def mesh(self, u: Reals, states: States) -> Any:
         """The first side of meshio's."""
         return mesh_of(in_space(self.positions(u)[0]), self.facets1, states, {})
@@ -192,3 +202,24 @@ class Pair:
         if self.scaled:
             constraints = constraints + self.system.piece(x1, x2, lam, size, "scales")
         return forces, elimination, constraints
+
+
+def elimination_order(pairs: list[Pair]) -> list[int]:
+    """In which order interfaces are condensed: one whose forces act on a node comes before the one that eliminates its multiplier."""
+    owned = [pair.bearing() for pair in pairs]
+    touched = [np.setdiff1d(np.concatenate([pair.equations1.ravel(), pair.equations2.ravel()]), own) for pair, own in zip(pairs, owned)]
+    for j, later in enumerate(pairs):
+        for i in range(j):
+            shared = np.intersect1d(owned[i], owned[j])
+            if len(shared):
+                nodes = np.unique(later.nodes1[np.isin(later.equations1, shared).any(axis=1)])
+                raise InvalidValue(f"start: nodes {nodes.tolist()} have multipliers in the interfaces {i} and {j}; condensed, each would take the"
+                                   " constraint of the other one for a force: let the other body's facets have them in one of the two, or give"
+                                   " up condensed")
+    before = {j: {i for i in range(len(pairs)) if i != j and len(np.intersect1d(touched[i], owned[j]))} for j in range(len(pairs))}
+    try:
+        return list(TopologicalSorter(before).static_order())
+    except CycleError as error:
+        names = sorted(set(error.args[1]))
+        raise InvalidValue(f"start: the interfaces {names} act on each other's nodes with multipliers all round, so that none of them can"
+                           " be condensed first: swap the sides of one, or give up condensed") from error

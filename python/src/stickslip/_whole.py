@@ -88,11 +88,16 @@ class Whole:
             out.append((equations[f], equations[facets.partner[f]], touches))
         return out
 
+    def drawn(self, u: Reals) -> tuple[Reals, list[Integers]]:
+        """Where the copies are, and the facets."""
+        return self.positions(u)[0][self.face.originals], self.face.facet_copies
+
     def mesh(self, u: Reals, states: States) -> Any:
         """The skin as a mesh of meshio, with nodes a face at creases."""
         facets = self.face.facets()
         data = {"side": facets.side, "piece": facets.piece, "body": facets.body, "distance": facets.distance}
-        return mesh_of(in_space((self.X + u[self.nodes])[self.face.originals]), self.face.facet_copies, states, data)
+        x, rows = self.drawn(u)
+        return mesh_of(in_space(x), rows, states, data)
 
     def report(self, point: tuple[Reals, ...], is_first: bool) -> str:
         """Who may touch whom, and at a point that is not the first one who does, in sentences."""

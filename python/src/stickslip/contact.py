@@ -9,13 +9,15 @@ from numpy.typing import ArrayLike
 
 from . import _arrays
 from ._arrays import given, output
-from ._pair import Pair
+from ._pair import Pair, elimination_order
+from ._rigid_nodes import RigidNodes
 from ._whole import Whole
 from .errors import InvalidSize, InvalidValue
 from .general import Skin
 from .interface import Interface
 from .options import Options, with_options
 from .results import Gradient, States
+from .rigid import RigidBody
 from .skin import Facets, Integers, Reals
 from .surface import Surface
 
@@ -49,7 +51,8 @@ class Contact:
         values at nodes.
     size : how many unknowns the host has; without it as many as ``dofs`` says
     condensed : True: no multipliers among the unknowns. Vectors have the host's unknowns alone, and :meth:`tangent` changes the rows of
-        the host. The unknowns of the first side's nodes must all be free.
+        the host. The unknowns of the first side's nodes must all be free: what is prescribed there has dofs -1. A node has multipliers in
+        one interface at most.
     """
 
     def __init__(self, X: ArrayLike, dofs: Any = None, size: int | None = None, *, condensed: bool = False):
@@ -72,7 +75,11 @@ class Contact:
         if self.dofs.max() >= self._n_inner:
             raise InvalidValue(f"size: {size}, and dofs has {self.dofs.max()}; at least {self.dofs.max() + 1} is needed")
         self.condensed = condensed
+        # Of each node's displacements: those of the host, or behind them those of nodes without unknowns of their own.
+        self._numbers: Integers = self.dofs.copy() if self._map is None else np.arange(self.X.size).reshape(self.X.shape)
+        self._rigid = RigidNodes()
         self._parts: list[Part] = []
+        self._order: list[int] = []
         self._start: Reals | None = None
         self._at: Reals | None = None
         self._commits = 0
@@ -97,15 +104,14 @@ class Contact:
         """
         if self._start is not None:
             raise InvalidValue("add: all interfaces are needed before start")
-        numbers = self.dofs if self._map is None else np.arange(self.X.size).reshape(self.X.shape)
         first, known = self._n_inner + self.n_multipliers, np.asarray(held, dtype=np.int64).ravel()
         if facets2 is None:
             self._refuse_whole(crease)
-            self._parts.append(Whole(self.X, numbers, first, facets1, bodies=bodies, held=known, options=dict(options)))
+            self._parts.append(Whole(self.X, self._numbers, first, facets1, bodies=bodies, held=known, options=dict(options)))
         elif bodies is not None:
             raise InvalidValue("bodies: two sides are named; bodies are for general contact, with facets1 alone")
         else:
-            self._parts.append(Pair(self.X, numbers, first, (facets1, facets2), crease=crease, held=known, condensed=self.condensed,
+            self._parts.append(Pair(self.X, self._numbers, first, (facets1, facets2), crease=crease, held=known, condensed=self.condensed,
                                     options=dict(options)))
         return self
 
@@ -118,10 +124,41 @@ class Contact:
         if any(isinstance(part, Whole) for part in self._parts):
             raise InvalidValue("add: there is a whole skin already; hand over all facets in one")
 
+    def rigid(self, nodes: ArrayLike, point: ArrayLike, unknowns: ArrayLike) -> RigidBody:
+        """Nodes that move as one body, before any interface is added: :meth:`add` takes facets of them as of others.
+
+        Loads of the body are the host's: forces and moments in the rows of its unknowns. A rotation is a rotation vector, at most
+        pi long since the last :meth:`turn`.
+
+        Parameters
+        ----------
+        nodes : their numbers; ``dofs`` has -1 for all their displacements
+        point : (3,) or (2,), the body's reference point in the first configuration, anywhere [L]. Moments are about it.
+        unknowns : (6,) or (3,), which of the host's unknowns are the point's displacement and the body's rotation. All are unknowns:
+            prescribe them by ``fixed`` of :func:`stickslip.newton`.
+        """
+        if self._parts or self._map is not None or self.condensed:
+            raise InvalidValue("rigid: needs dofs that are displacements of nodes, multipliers among the unknowns, and comes before add")
+        body = self._rigid.add(self.X, self._numbers, nodes, point, unknowns, (self.n_host, self._n_inner))
+        self._n_inner += body.coordinates.size
+        return body
+
+    def turn(self, x: Reals) -> None:
+        """After a commit: takes the rotations of rigid bodies into the bodies, and sets them to 0 in x. For bodies that turn on and on."""
+        self._displacements(x)
+        for body in self._rigid.bodies:
+            body.turn()
+            x[body.equations] = body.unknowns
+
     @property
     def interfaces(self) -> list[Any]:
         """The handles, in the order in which they were added: :class:`stickslip.Interface`, or :class:`stickslip.Skin`."""
         return [part.face for part in self._parts]
+
+    @property
+    def _pairs(self) -> list[Pair]:
+        """Those with two sides."""
+        return [part for part in self._parts if isinstance(part, Pair)]
 
     @property
     def n_multipliers(self) -> int:
@@ -145,6 +182,7 @@ class Contact:
         if u is not None:
             x[: self.n_host] = given("u", u, (self.n_host,))
         if self.condensed:
+            self._order = elimination_order(self._pairs)
             for pair, (x1, x2, _) in self._condensed(self._evaluated(x)):
                 pair.system.multipliers(x1, x2, np.zeros(x1.shape))  # refuses here what has no condensed form, not in a step
         else:
@@ -157,20 +195,24 @@ class Contact:
         output("r", r, (self.size,))
         self._at = None
         inner, rows = np.zeros(self._n_inner), []
-        own = r.copy()
-        points = self._evaluated(x)
-        for pair, (x1, x2, _) in self._condensed(points):
+        own, points = r.copy(), self._evaluated(x)
+        if self.condensed and not self._order:
+            self._order = elimination_order(self._pairs)
+        condensed = self._condensed(points)
+        for pair, (x1, x2, _) in [condensed[k] for k in self._order]:
             host1 = np.where(pair.equations1 < 0, 0.0, own[pair.equations1])
             fresh = not self._commits and self._start is not None and np.array_equal(x, self._start)
             pair.lam = pair.face.initial_multipliers() if fresh else pair.system.multipliers(x1, x2, host1)
             pair.scaled = not fresh
             rows1, force2 = pair.system.residual(x1, x2, pair.lam, host1)
-            pair.add_forces(inner, rows1 - host1, force2)
+            for vector in (inner, own):  # to those that come after they are forces of the host
+                pair.add_forces(vector, rows1 - host1, force2)
         for part, point in () if self.condensed else points:
             *forces, row = part.face.residual(*point)
             part.add_forces(inner, *forces)
             rows.append(row[part.mask])
-        r[: self.n_host] += inner if self._map is None else self._map.T @ inner
+        r[: self.n_host] += inner[: self.n_host] if self._map is None else self._map.T @ inner
+        self._rigid.resultants(inner, r)
         if not self.condensed:
             r[self.n_host :] += np.concatenate(rows)
         self._at = x.copy()
@@ -185,7 +227,13 @@ class Contact:
         if self.condensed:
             return self._condense(self._condensed(self._points(x)), K)
         size = self._n_inner + self.n_multipliers
-        total = sum((part.tangent(point, size) for part, point in self._points(x)), scipy.sparse.csr_matrix((size, size)))
+        points = self._points(x)
+        total = sum((part.tangent(point, size) for part, point in points), scipy.sparse.csr_matrix((size, size)))
+        if self._rigid.bodies:
+            inner = np.zeros(self._n_inner)
+            for part, point in points:
+                part.add_forces(inner, *part.face.residual(*point)[:-1])
+            total = self._rigid.reduced(total, inner, self.n_host, self._n_inner)
         if self._map is not None:
             wide = scipy.sparse.block_diag([self._map, scipy.sparse.identity(self.n_multipliers)], "csr")
             total = wide.T @ total @ wide
@@ -193,12 +241,31 @@ class Contact:
             total = total + _grown(scipy.sparse.csr_matrix(K), self.n_host, self.size)
         return total.tocsr()
 
+    def add_to(self, matrix: Any, x: Reals, numbers: ArrayLike | None = None) -> None:
+        """Adds the share of contact to a matrix of petsc4py, which is assembled afterwards: ``matrix.assemble()``.
+
+        The places are those of a plan, the same in each call until surfaces slide on: give the matrix room for them, or
+        ``matrix.setOption(PETSc.Mat.Option.NEW_NONZERO_ALLOCATION_ERR, False)``.
+
+        Parameters
+        ----------
+        matrix : petsc4py.PETSc.Mat
+        numbers : (size,), the row of the matrix of each unknown; -1: none, as of prescribed ones. Without it they are the same. On several
+            processes those of this process or others: PETSc sends entries where they belong.
+        """
+        from ._petsc import added
+
+        added(matrix, self.tangent(x), np.arange(self.size) if numbers is None else given("numbers", numbers, (self.size,), np.int64))
+
     def _condense(self, points: list[tuple[Pair, Point]], K: Any) -> scipy.sparse.csr_matrix:
         if K is None:
             raise InvalidValue("K: the host's matrix is needed, as contact is condensed")
         pieces = [pair.pieces(point, self.n_host) for pair, point in points]
         inner = K + sum(forces for forces, _, _ in pieces)
-        return (inner + sum(elimination @ inner + constraints for _, elimination, constraints in pieces)).tocsr()
+        for k in self._order:
+            _, elimination, constraints = pieces[k]
+            inner = inner + elimination @ inner + constraints
+        return inner.tocsr()
 
     def balanced(self, x: Reals, tolerance: float = _BALANCE) -> bool:
         """Whether every interface is in contact equilibrium. Whether forces balance is the host's to ask."""
@@ -221,6 +288,19 @@ class Contact:
     def surface(self, x: Reals, states: States, interface: int = 0) -> Any:
         """The first side of an interface as x has it, a mesh of meshio with what ``states`` say of its nodes: ``.write("contact.vtu")``."""
         return self._parts[interface].mesh(self._displacements(x), states)
+
+    def plot(self, x: Reals, states: States, what: str = "pressure", interface: int = 0, axes: Any = None) -> Any:
+        """Draws the first side of an interface as x has it, by matplotlib, and gives the axes: ``contact.plot(...).figure.savefig(file)``.
+
+        Parameters
+        ----------
+        states : of this interface, of :meth:`states` or :class:`stickslip.Step`
+        what : "state", which colours nodes, or a number of :class:`stickslip.States` that colours facets; of vectors the length
+        axes : where to draw, of projection "3d" in space; without it a new figure
+        """
+        from ._drawing import drawn
+
+        return drawn(*self._parts[interface].drawn(self._displacements(x)), states, what, axes)
 
     def commit(self, x: Reals) -> None:
         """Accepts a converged step: all interfaces do, or none. General contact changes multipliers of x, where it takes other sides.
@@ -266,8 +346,8 @@ class Contact:
     def adjoint(self, x: Reals, a: Reals, wanted: tuple[str, ...]) -> tuple[list[Gradient], Reals]:
         """Products of a vector with the derivatives of the contacts' residual: :meth:`stickslip.Interface.adjoint` of each interface with
         the members ``wanted``; and previous1 and previous2, where both are among them, in a vector of the host's: B^T a."""
-        if self.condensed:
-            raise InvalidValue("adjoint: needs multipliers among the unknowns, not condensed")
+        if self.condensed or self._rigid.bodies:
+            raise InvalidValue("adjoint: needs multipliers among the unknowns, not condensed, and no rigid bodies")
         inner = a[: self.n_host] if self._map is None else self._map @ a[: self.n_host]
         behind, last, products = np.zeros(self._n_inner), self.n_host, []
         for part, point in self._points(x):
@@ -298,28 +378,27 @@ class Contact:
 
     def step_limit(self, x: Reals, step: Reals) -> float:
         """How much of a change of all unknowns may be taken before surfaces lie in each other, at most 1."""
-        u, moved = self._displacements(x), self._displacements(step)
-        limits = [1.0]
+        end = self._displacements(x + step)
+        u, limits = self._displacements(x), [1.0]
         for part in self._parts:
-            at, end = part.positions(u), part.positions(u + moved)
-            limits.append(part.face.step_limit(*at, *(b - a for a, b in zip(at, end))))
+            at, then = part.positions(u), part.positions(end)
+            limits.append(part.face.step_limit(*at, *(b - a for a, b in zip(at, then))))
         return min(limits)
 
     def touching(self, x: Reals) -> list[tuple[int, int, bool]]:
         """Of what may touch an unknown of the host on either side, -1: none, and whether it does."""
         sides = [joint for part, states in zip(self._parts, self.states(x)) for joint in part.touching(states)]
-        column = np.arange(self._n_inner)
-        if self._map is not None:
+        if self._map is None:
+            column = self._rigid.owners(np.arange(self._n_inner), self.n_host)
+        else:
             column = np.append(self._map.indices, -1)[np.where(np.diff(self._map.indptr) > 0, self._map.indptr[:-1], -1)]
         last = [[int(column[numbers[numbers >= 0]].max(initial=-1)) for numbers in joint[:2]] for joint in sides]
         return [(one, two, joint[2]) for (one, two), joint in zip(last, sides)]
 
     def first_side(self) -> Integers:
         """The host's unknowns of all nodes that have multipliers."""
-        pairs = [part for part in self._parts if isinstance(part, Pair)]
-        bearing = [pair.mask.reshape(len(pair.mask), -1).any(axis=1) for pair in pairs]
-        numbers: Integers = np.concatenate([pair.equations1[nodes].ravel() for pair, nodes in zip(pairs, bearing)])
-        return numbers[numbers >= 0]
+        return np.concatenate([pair.bearing() for pair in self._pairs])
+
 
     def report(self, x: Reals | None = None) -> str:
         """Which nodes are covered in the first configuration, or at ``x``, and what looks wrong, in sentences. Of general contact who may
@@ -336,7 +415,9 @@ class Contact:
         if self._map is not None:
             out: Reals = (self._map @ x[: self.n_host]).reshape(self.X.shape)
             return out
-        return np.where(self.dofs < 0, 0.0, x[self.dofs])
+        placed: Reals = np.where(self.dofs < 0, 0.0, x[self.dofs])
+        self._rigid.place(x, self.X, placed)
+        return placed
 
     def _points(self, x: Reals) -> list[tuple[Part, Point]]:
         """Each interface with positions and multipliers. Condensed ones are those of the last residual, at this x."""

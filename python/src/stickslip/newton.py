@@ -79,8 +79,11 @@ class _Run:
         self.free = np.ones(contact.size, dtype=bool)
         self.free[fixed] = False
         self.fixed = fixed
-        if contact.condensed and not self.free[contact.first_side()].all():
-            raise InvalidValue("fixed: a node of the first side, whose rows a condensed contact needs")
+        held = contact.first_side() if contact.condensed else fixed[:0]
+        held = held[~self.free[held]]
+        if len(held):
+            raise InvalidValue(f"fixed: unknown {held[0]} is one of a node of the first side that has multipliers, whose rows a condensed contact"
+                               " needs: give it dofs -1 and, on a plane of symmetry, name it as held")
         self.largest: Reals | float = 0.0
 
     def evaluate(self, x: Reals) -> tuple[Reals, Reals]:
@@ -116,7 +119,7 @@ class _Run:
 
         r, own = self.evaluate(x)
         K = scipy.sparse.csr_matrix(self.host_tangent(x[: self.n]))
-        self.bodies: Integers = connected_components(K, directed=False)[1]
+        self.bodies: Integers = connected_components(K + self.contact._rigid.links(self.n), directed=False)[1]
         self.closing = Closing(self.contact, self.bodies, self.fixed)
         self.closing.begin(x, closing)
         for iteration in range((2 if self.closing.active else 1) * most + 1):

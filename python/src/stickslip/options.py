@@ -33,7 +33,7 @@ class Options(TypedDict, total=False):
     radius: float
     #: 1: weights and normals stay those of the first configuration.
     small_displacements: int
-    #: For mortar surfaces in layers [L].
+    #: Facets farther apart than this are no pair [L].
     search_distance: float
     #: "paper": the paper's element; else as below.
     method: Literal["default", "paper"]

@@ -8,6 +8,7 @@ use crate::interface::data::surface::Surface;
 use crate::interface::pairing::candidates::KeptTree;
 use crate::interface::pairing::filter::Filter;
 use crate::interface::pairing::given::NormalsAt;
+use crate::interface::pairing::hidden::Hidden;
 use crate::interface::pairing::search::Tree;
 use crate::interface::pairing::settle::Pairing;
 use crate::interface::pairing::work::{Room, ThreadRoom, Work};
@@ -51,9 +52,15 @@ fn of_filter(filter: &Filter) -> usize {
                 + heap(&f.depths)
                 + heap(&f.reached)
                 + heap(&f.by_overlaps)
+                + of_hidden(&f.hidden)
         }
         Filter::Analytic(facing) => heap(facing),
     }
+}
+
+/// Of what is hidden.
+pub fn of_hidden(hidden: &Hidden) -> usize {
+    heap(&hidden.pairs) + heap(&hidden.stacked) + heap(&hidden.kept)
 }
 
 /// Of a search tree.

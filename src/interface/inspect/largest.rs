@@ -33,7 +33,9 @@ impl Largest {
     pub fn take_worse(&mut self, other: &Largest, node: &dyn Fn(usize) -> usize) {
         match other.node {
             Some(of_other) => self.offer(other.value, other.scale, node(of_other)),
-            None if self.node.is_none() => self.scale = if self.scale > 0.0 { self.scale.min(other.scale) } else { other.scale },
+            None if self.node.is_none() => {
+                self.scale = if self.scale > 0.0 { self.scale.min(other.scale) } else { other.scale }
+            }
             None => (),
         }
     }

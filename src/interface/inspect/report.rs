@@ -13,6 +13,7 @@ use crate::interface::pairing::given::Given;
 use crate::interface::pairing::work::Work;
 use crate::interface::stages::integrate::integrate;
 use crate::interface::stages::layers;
+use crate::interface::stages::over::SHARED;
 use crate::interface::stages::sums::{add_offsets, assemble};
 use crate::memory::{self, Store, Stored};
 use crate::mortar::NonmortarFrame;
@@ -22,7 +23,7 @@ use crate::mortar::NonmortarFrame;
 const LEAST: f64 = 0.99;
 /// A facet that is covered more than this over its area lies under several layers. The shape functions add up to 1 at
 /// every point of the rule, so that a facet's coverage, unlike a node's, has no error of the quadrature.
-const MOST: f64 = 1.0 + layers::SHARED;
+const MOST: f64 = 1.0 + SHARED;
 /// An overlap that counts as closed is told where it is more than this over the size of the facets: coordinates of single precision are
 /// off by as much on a mesh of a hundred facets.
 const KEPT: f64 = 1e-5;

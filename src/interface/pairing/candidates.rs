@@ -97,6 +97,9 @@ impl<'a> Search<'a> {
     /// Whether facet i, which has this frame, may have facet j as its partner.
     pub fn admits(&self, (i, frame): (usize, &NonmortarFrame), j: usize) -> bool {
         let (filter, skin) = (self.filter, self.skin);
+        if filter.hides(i, j) {
+            return false;
+        }
         if !self.follows {
             return filter.admits(i, j);
         }

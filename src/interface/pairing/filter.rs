@@ -8,6 +8,7 @@
 //! their facets. This is the pair's own measure. A mortar facet that coarse non-mortar facets let in may lie deeper
 //! (`depth.rs`).
 
+use super::hidden::Hidden;
 use crate::error::Result;
 use crate::geometry::{Facet, Plane, Vec3};
 use crate::interface::data::surface::{NO_FACET, Surface};
@@ -155,10 +156,21 @@ pub struct FacetFilter {
     pub reached: Vec<bool>,
     /// Per non-mortar facet, whether it is integrated over overlaps and not over points; empty unless the scheme has both.
     pub by_overlaps: Vec<bool>,
+    /// What layers of the mortar surface hide.
+    pub hidden: Hidden,
 }
 
 impl FacetFilter {
-    /// Whether non-mortar facet i and mortar facet j can be a pair.
+    /// Whether a nearer mortar facet hides mortar facet j from non-mortar facet i: then they are no pair before the next commit.
+    pub fn hides(&self, i: usize, j: usize) -> bool {
+        let far = |j: usize| {
+            let (low, high) = self.heights(i, j);
+            (low + high).abs()
+        };
+        self.hidden.hides(i, j, |front| self.admits(i, front) && far(front) < far(j))
+    }
+
+    /// Whether non-mortar facet i and mortar facet j can be a pair, where no other one lies between them.
     pub fn admits(&self, i: usize, j: usize) -> bool {
         self.opposes(i, j) && self.reaches((i, j), self.heights(i, j))
     }

@@ -81,6 +81,7 @@ pub fn coverable(nonmortar: &Surface, filter: Option<&Filter>, frozen: Option<We
 mod tests {
     use super::*;
     use crate::interface::pairing::filter::Side;
+    use crate::interface::pairing::hidden::Hidden;
 
     /// Surfaces of scattered facets of either size, any way round: the tree finds what all against all finds.
     #[test]
@@ -115,6 +116,7 @@ mod tests {
                 depths: Vec::new(),
                 reached: Vec::new(),
                 by_overlaps: Vec::new(),
+                hidden: Hidden::default(),
             };
             let expected: Vec<_> = (0..20).map(|i| (0..12).any(|j| filter.admits(i, j))).collect();
             let tree = Tree::new(two.facets.iter().map(|f| Aabb::around(f.nodes.map(|k| two.reference[k]))).collect())
@@ -181,6 +183,7 @@ mod tests {
                     depths: Vec::new(),
                     reached: Vec::new(),
                     by_overlaps: Vec::new(),
+                    hidden: Hidden::default(),
                 };
                 let boxes = || two.facets.iter().map(|f| Aabb::around(f.nodes.map(|k| two.reference[k]))).collect();
                 let normals: Vec<_> = filter.sides[1].facets.iter().map(|(_, plane)| plane.e).collect();

@@ -7,6 +7,7 @@ use super::candidates::KeptTree;
 use super::corners::{Copies, Corners};
 use super::depth;
 use super::filter::{FacetFilter, Filter, Side};
+use super::hidden::Hidden;
 use super::hybrid;
 use super::reach;
 use super::search::Tree;
@@ -63,12 +64,19 @@ impl Pairing {
         Ok(Pairing { filter, coverable, carriers, keeps_normal, corners })
     }
 
-    /// That of a history which is not of now; its positions may be refused.
-    pub fn again<const N: usize>(setup: &Setup<N>, history: &History) -> Result<Pairing> {
-        let current = setup.options.effective_weights() == Weights::Current;
-        let mut tree = KeptTree::default();
-        let at = || filter(setup.surfaces(), &setup.options, (&history.x1, &history.x2), &mut tree);
-        Pairing::new(setup, current.then(at).transpose()?, history)
+    /// Takes what layers of the mortar surface hide away.
+    pub fn take_hidden(&mut self) -> Hidden {
+        match &mut self.filter {
+            Some(Filter::Facets(filter)) => std::mem::take(&mut filter.hidden),
+            _ => Hidden::default(),
+        }
+    }
+
+    /// Puts it back.
+    pub fn put_hidden(&mut self, hidden: Hidden) {
+        if let Some(Filter::Facets(filter)) = &mut self.filter {
+            filter.hidden = hidden;
+        }
     }
 }
 
@@ -91,6 +99,7 @@ pub fn filter(
         depths: Vec::new(),
         reached: Vec::new(),
         by_overlaps: Vec::new(),
+        hidden: Hidden::default(),
     };
     let tree = tree.at(two, x2)?;
     let normals: Vec<_> = filter.sides[1].facets.iter().map(|(_, plane)| plane.e).stored()?;

@@ -13,6 +13,7 @@ use crate::interface::data::history::{History, Keeps};
 use crate::interface::data::options::{Options, Scheme, Weights};
 use crate::interface::data::parents::Parents;
 use crate::interface::data::surface::Surface;
+use crate::interface::pairing::candidates::KeptTree;
 use crate::interface::pairing::filter::Filter;
 use crate::interface::pairing::settle;
 use crate::interface::pairing::work::Work;
@@ -56,7 +57,7 @@ pub fn settled_at(
     }
     work.room.dropped.clear();
     // Also where the surfaces are apart: a commit refuses degenerate facets of either side.
-    let filter = settle::filter(surfaces, options, (x1, x2), &mut work.tree)?;
+    let mut filter = settle::filter(surfaces, options, (x1, x2), &mut work.tree)?;
     let mut is_active = false;
     // Which nodes carry others follows from what is covered: a step must know it from the start.
     let leaves_out = extent == Extent::Whole && options.effective_weak_coverage() == 0.0;
@@ -89,7 +90,7 @@ pub fn settled_at(
                 }
             }
         }
-        layers::refuse(surfaces, (options, &filter), &mut work.room, active)?;
+        layers::settle(surfaces, options, &mut filter, work, (x1, x2), active)?;
         let sums = &mut work.room.sums;
         assemble(surfaces, active.weighted(surfaces), (x1, x2), sums)?;
         if keeps.facet_gaps() {
@@ -141,17 +142,42 @@ pub fn with_the_same_weights(
     Ok(Settled { history, filter: None, active: false })
 }
 
-/// Makes up for the weights of t_n where they were left out because the surfaces were apart then.
+/// The filter of a history that is not of now, whose positions may be refused: with nothing hidden. `None` where the weights are
+/// frozen.
+pub fn filter_of(surfaces: (&Surface, &Surface), options: &Options, history: &History) -> Result<Option<Filter>> {
+    let mut tree = KeptTree::default();
+    let at = || settle::filter(surfaces, options, (&history.x1, &history.x2), &mut tree);
+    (options.effective_weights() == Weights::Current).then(at).transpose()
+}
+
+/// The same with what is hidden.
+pub fn filter_again(
+    surfaces: (&Surface, &Surface),
+    options: &Options,
+    history: &History,
+    work: &mut Work,
+) -> Result<Option<Filter>> {
+    let mut filter = filter_of(surfaces, options, history)?;
+    if let Some(filter) = filter.as_mut().filter(|_| history.integrated) {
+        let (x, mut active) = ((&history.x1[..], &history.x2[..]), Active::default());
+        acting(surfaces, options, filter, work, x, &mut active)?;
+        layers::settle(surfaces, options, filter, work, x, &mut active)?;
+    }
+    Ok(filter)
+}
+
+/// Makes up for the weights of t_n, and what is hidden, where they were left out because the surfaces were apart then.
 pub fn complete(
     surfaces: (&Surface, &Surface),
     options: &Options,
-    (history, filter): (&mut History, &Filter),
+    (history, filter): (&mut History, &mut Filter),
     work: &mut Work,
 ) -> Result<()> {
     let (mut new, mut sums) = (Active::default(), Vec::new());
-    acting(surfaces, options, filter, work, (&history.x1, &history.x2), &mut new)?;
-    assemble(surfaces, new.weighted(surfaces), (&history.x1, &history.x2), &mut sums)?;
-    layers::refuse(surfaces, (options, filter), &mut work.room, &new)?;
+    let x = (&history.x1[..], &history.x2[..]);
+    acting(surfaces, options, filter, work, x, &mut new)?;
+    layers::settle(surfaces, options, filter, work, x, &mut new)?;
+    assemble(surfaces, new.weighted(surfaces), x, &mut sums)?;
     history.fill(&mut new, surfaces.0.parents.is_some(), &sums)
 }
 

@@ -14,6 +14,7 @@ pub mod layers;
 pub mod lost;
 pub mod node;
 pub mod normals;
+pub mod over;
 pub mod own;
 pub mod point_friction;
 pub mod point_memory;

@@ -1,4 +1,4 @@
-"""Two plates one above the other under one facet: only the nearer may be given its force, or the surface is refused.
+"""Two plates one above the other under one facet: only the nearer may be given its force.
 
 Plates side by side, at several heights, are no layers: each has the force of what it covers.
 """
@@ -12,7 +12,6 @@ from library import Interface, Refused, fade
 GAPS = ("1", "0.2", "1e-2", "1e-4", "1e-6", "1e-8")
 SIZES = ("3", "0.9", "0.5", "0.1", "1e-2", "1e-3")  # of the plates, over the facet's
 SIDE_BY_SIDE = ("0", "1e-12", "1e-9", "1e-7", "1e-5", "1e-3")  # how far each reaches over the next, over its size
-LAYERS = "in layers over non-mortar facet 0"
 EXACT = 1e-12  # sums of a few products of numbers around 1
 
 
@@ -85,7 +84,7 @@ def beside(text):
 
 
 def cells():
-    more = {"kind": ELEMENT, "may_refuse": LAYERS}
+    more = {"kind": ELEMENT}
     yield from series("layers, gap between them", GAPS, lambda t: stacked(0.5, float(t)), quick=("0.2", "1e-8"), **more)
     yield from series("layers, plates over facet", SIZES, lambda t: stacked(float(t), 0.2), quick=("3", "1e-3"), **more)
     near = lambda t: stacked(float(t), 0.2, search_distance=0.1)

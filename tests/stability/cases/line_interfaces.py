@@ -112,7 +112,7 @@ def cells():
     yield from series("line interface, first touch at a gap of", assembled.TOUCHES, touching, quick=("0",), **kind)
     apart = lambda text: layers.stacked(float(text), 0.2, search_distance=0.1, **flat)
     stacked = lambda text: layers.stacked(float(text), 0.2, **flat)
-    yield from series("lines in layers, plates over line", SIZES, stacked, may_refuse=layers.LAYERS, quick=("0.5",), **kind)
+    yield from series("lines in layers, plates over line", SIZES, stacked, quick=("0.5",), **kind)
     yield from series("lines in layers with search distance", SIZES[1:], apart, quick=("0.5",), **kind)
     yield from series("lines turned in one step, degrees", DEGREES, turned_at_once, quick=(90,), **kind)
     yield from series("lines tied over a gap, degrees of turn", DEGREES, tied, quick=(90,), **kind)
