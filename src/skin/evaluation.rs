@@ -1,7 +1,7 @@
 //! Evaluating a skin: every piece at its part of the point, and what lies between the pieces.
 
+use super::handle::{Skin, is_there};
 use super::piece::Held;
-use super::step::{Skin, is_there};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::interface::{Equilibrium, Extent, Normals, PlanPairs, PlanSystem, Scales};

@@ -3,13 +3,13 @@
 //! Integers: the layout, the checksum, nodes, facets, commits, pieces; the sides of the facets; piece by piece how many facets of
 //! three kinds, integers and reals it has, and these. Reals: positions of t_n, the motion before it, then those of the pieces.
 
+use super::handle::{Skin, Start};
 use super::piece::Held;
 use super::pieces::Piece;
 use super::roles::{Role, Sides};
-use super::step::{Skin, Start};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
-use crate::interface::{history_checksum, seal_history};
+use crate::interface::{Options, history_checksum, seal_history};
 use crate::memory::{self, Store, Stored};
 
 /// What the first integer of a layout says.
@@ -35,6 +35,8 @@ impl Skin {
                 integers.store_all(list.iter().map(|&f| f as i64))?;
             }
             memory::extend(&mut integers, &i)?;
+            // A piece that was made after a refusal looks farther than the options say; 0: no distance is given.
+            reals.store(held.contact.options().search_distance.unwrap_or(0.0))?;
             memory::extend(&mut reals, &r)?;
         }
         seal_history(&mut integers, &reals);
@@ -60,7 +62,9 @@ impl Skin {
                 rest.integers(5)?.iter().map(|&n| usize::try_from(n).unwrap_or(usize::MAX)).stored()?;
             let mut list = |k: usize| rest.integers(lengths[k])?.iter().map(|&f| facet_of(f, facets)).stored_if_ok();
             let piece = Piece { own: list(0)?, ring: list(1)?, mortar: list(2)? };
-            let mut one = Held::new(&self.whole, piece, &self.rules)?;
+            let reach = rest.reals(1)?[0];
+            let options = Options { search_distance: (reach > 0.0).then_some(reach), ..self.rules.options };
+            let mut one = Held::new(&self.whole, piece, &self.rules, options)?;
             one.contact.import_history(rest.integers(lengths[3])?, rest.reals(lengths[4])?)?;
             held.store(one)?;
         }

@@ -5,6 +5,7 @@
 //! hangs together, and each piece is an interface. [`Skin`] owns them and calls them all.
 
 mod evaluation;
+mod handle;
 mod history;
 mod missed;
 mod near;
@@ -16,8 +17,9 @@ mod table;
 mod whole;
 
 pub use evaluation::{OfCopy, SkinResidual};
+pub use handle::{Counts, Skin};
 pub use near::Near;
 pub use roles::Role;
-pub use step::{Counts, Skin};
+
 pub use table::{Between, Table};
 pub use whole::{Given, Whole};

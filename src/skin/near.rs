@@ -18,7 +18,7 @@ const DEEPEST: f64 = 1.0;
 /// How far a skin looks, over a facet's longest edge, at least.
 const LEAST_REACH: f64 = 0.5;
 /// And how far beyond that, over the largest motion of the last step: a step may be as large again.
-const MOTIONS: f64 = 2.0;
+pub const MOTIONS: f64 = 2.0;
 
 /// Two facets that may touch.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -53,7 +53,7 @@ pub struct Room {
 
 impl Held {
     /// The interface of a piece, at the first configuration.
-    pub fn new(whole: &Whole, piece: Piece, rules: &Rules) -> Result<Held> {
+    pub fn new(whole: &Whole, piece: Piece, rules: &Rules, options: Options) -> Result<Held> {
         let mut facets = memory::copied(&piece.own)?;
         memory::extend(&mut facets, &piece.ring)?;
         let sides = [&facets[..], &piece.mortar];
@@ -72,7 +72,7 @@ impl Held {
         let mortar = surface_of(whole, "mortar", sides[1], &copies[1])?;
         let equations = copies[0].iter().zip(&has_multiplier);
         let equations = equations.map(|(&a, &has)| if has { whole.multipliers[a] } else { [NO_EQUATION; 3] });
-        let mut contact = Interface::new(nonmortar, mortar, equations.stored()?, rules.options)?;
+        let mut contact = Interface::new(nonmortar, mortar, equations.stored()?, options)?;
         let declared = constraints_of(whole, &copies[0], rules)?;
         if !declared.is_empty() {
             contact.set_constraints(&declared)?;

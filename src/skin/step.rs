@@ -1,70 +1,14 @@
-//! The skin's handle: its pieces are asked one after the other, and made anew at a commit where what may touch has changed.
+//! A skin from step to step: what a commit keeps and makes anew, and what takes it back.
 
+use super::handle::{Before, Skin, Slot, Start, set_friction};
 use super::missed::are_in_each_other;
-use super::near::{Near, Reach, near};
-use super::piece::{Held, Rules};
+use super::near::{MOTIONS, Near};
+use super::piece::Held;
 use super::pieces::{Wanted, has_all, pieces};
 use super::roles::{Role, Sides, sides};
-use super::table::{Between, Table};
-use super::whole::{Given, Whole};
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::Vec3;
-use crate::interface::{Friction, MortarSide, NO_EQUATION, Options};
 use crate::memory::{self, Store, Stored};
-
-/// What has happened to a skin since it was created.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Counts {
-    /// Interfaces that were made, the first ones among them.
-    pub made: i64,
-    /// Facets in contact that exchanged their side.
-    pub exchanged: i64,
-    /// Steps that were refused since facets met that no interface had as a pair.
-    pub missed: i64,
-}
-
-/// Where a step begins.
-#[derive(Debug, Default)]
-pub(super) struct Start {
-    /// Positions of the host's nodes.
-    pub x: Vec<Vec3>,
-    pub commits: i64,
-    /// The largest motion of the step before, by which the skin looks for partners `[L]`.
-    pub motion: f64,
-    pub sides: Sides,
-    pub near: Vec<Near>,
-}
-
-/// General contact.
-#[derive(Debug)]
-pub struct Skin {
-    pub(super) whole: Whole,
-    pub(super) rules: Rules,
-    /// The pieces, and where their step begins.
-    pub(super) held: Vec<Held>,
-    pub(super) start: Start,
-    /// Whether the plans are of these pieces.
-    pub(super) is_planned: bool,
-    pub(super) counts: Counts,
-    before: Option<Before>,
-}
-
-/// What the last commit has replaced.
-#[derive(Debug)]
-struct Before {
-    start: Start,
-    dropped: Vec<Held>,
-    order: Vec<Slot>,
-}
-
-/// Where a piece of the last step is now.
-#[derive(Clone, Copy, Debug)]
-enum Slot {
-    /// At this place of the present ones.
-    Kept(usize),
-    /// At this place of those that were dropped.
-    Dropped(usize),
-}
 
 /// What the step that follows has in place of a piece.
 enum Next {
@@ -81,113 +25,8 @@ struct Brought {
 }
 
 impl Skin {
-    /// A skin whose t_n is the first configuration.
-    pub fn new(given: Given, options: Options) -> Result<Skin> {
-        // Three multipliers a copy, whether there is friction or not: a pair of bodies may have some.
-        let options = match options.friction {
-            Friction::None => Options { friction: Friction::Coulomb, mu: 0.0, ..options },
-            Friction::Tied => {
-                let text = "a skin opens and closes; tie surfaces by an interface of their own";
-                return Err(Error::new(Kind::InvalidValue, text));
-            }
-            _ => options,
-        };
-        if options.mortar_side != MortarSide::Deformable {
-            let text = "options.mortar_side must be STICKSLIP_MORTAR_DEFORMABLE: which side of a skin is rigid follows from its equations";
-            return Err(Error::new(Kind::InvalidValue, text));
-        }
-        options.validate()?;
-        let whole = Whole::new(given)?;
-        let x = reference(&whole)?;
-        let rules = Rules { options, table: Table::default(), constraints: Vec::new() };
-        let (start, counts) = (Start { x, ..Start::default() }, Counts::default());
-        let mut skin = Skin { whole, rules, held: Vec::new(), start, is_planned: false, counts, before: None };
-        skin.begin(0.0)?;
-        Ok(skin)
-    }
-
-    /// What the host has handed over.
-    pub fn whole(&self) -> &Whole {
-        &self.whole
-    }
-
-    /// The pieces' options.
-    pub fn options(&self) -> &Options {
-        &self.rules.options
-    }
-
-    /// What has happened.
-    pub fn counts(&self) -> Counts {
-        self.counts
-    }
-
-    /// How many pairs could not be put on different sides in this step.
-    pub fn contradictions(&self) -> usize {
-        self.start.sides.contradictions
-    }
-
-    /// How many pieces there are.
-    pub fn pieces(&self) -> usize {
-        self.held.len()
-    }
-
-    /// Per facet of the host its side.
-    pub fn roles(&self) -> &[Role] {
-        &self.start.sides.roles
-    }
-
-    /// The pairs of facets that may touch in this step.
-    pub fn near(&self) -> &[Near] {
-        &self.start.near
-    }
-
-    /// Per facet of the host the piece that it is in as non-mortar facet.
-    pub fn piece_of_facets(&self) -> Result<Vec<Option<usize>>> {
-        let mut pieces = memory::filled(None, self.whole.facets())?;
-        for (p, held) in self.held.iter().enumerate() {
-            held.piece.own.iter().for_each(|&f| pieces[f] = Some(p));
-        }
-        Ok(pieces)
-    }
-
-    /// Says what there is between two bodies, or within one, from now on.
-    pub fn set_between(&mut self, bodies: [usize; 2], between: Between) -> Result<()> {
-        let known = self.whole.bodies.iter().max().map_or(0, |last| last + 1);
-        if let Some(body) = bodies.into_iter().find(|&body| body >= known) {
-            return Err(Error::new(Kind::IndexOutOfRange, text!("body {body} of {known}")));
-        }
-        self.rules.table.set(bodies, between)?;
-        self.begin_anew(0.0)
-    }
-
-    /// Directions in which nodes of the host are prescribed on both sides of a contact; replaces all earlier ones.
-    pub fn set_constraints(&mut self, directions: Vec<(usize, Vec3)>) -> Result<()> {
-        if let Some((node, _)) = directions.iter().find(|(node, _)| *node >= self.whole.nodes) {
-            let text = text!("a constraint names node {node}; the skin has {}", self.whole.nodes);
-            return Err(Error::new(Kind::IndexOutOfRange, text));
-        }
-        self.rules.constraints = directions;
-        self.held.iter_mut().try_for_each(|held| held.set_constraints(&self.whole, &self.rules))
-    }
-
-    /// Takes the pieces that t_n asks for, with room for a motion; none of them has been there before.
-    fn begin(&mut self, motion: f64) -> Result<()> {
-        let near = self.look(&self.start.x, motion)?;
-        let sides = sides(&self.whole, &near, &self.start.sides.roles)?;
-        let wanted = pieces(&self.whole, &sides.roles, &near)?;
-        let mut held = memory::with_room(wanted.len())?;
-        for Wanted { piece, .. } in wanted {
-            held.store(Held::new(&self.whole, piece, &self.rules)?)?;
-        }
-        set_friction(&self.whole, &self.rules, (&sides, &near), &mut held.iter_mut())?;
-        self.counts.made += held.len() as i64;
-        (self.held, self.start.sides, self.start.near) = (held, sides, near);
-        (self.is_planned, self.before) = (false, None);
-        Ok(())
-    }
-
     /// The same where steps have been committed: the nodes keep what they remember.
-    fn begin_anew(&mut self, motion: f64) -> Result<()> {
+    pub(super) fn begin_anew(&mut self, motion: f64) -> Result<()> {
         if self.start.commits == 0 {
             return self.begin(motion);
         }
@@ -198,12 +37,6 @@ impl Skin {
         self.replace(start, next)?;
         self.before = None;
         Ok(())
-    }
-
-    /// The pairs of facets that may touch where the host's nodes are at `x`, after a step with this motion.
-    pub(super) fn look(&self, x: &[Vec3], motion: f64) -> Result<Vec<Near>> {
-        let reach = self.rules.options.search_distance.map_or(Reach::Motion(motion), Reach::Given);
-        near(&self.whole, &self.whole.places(x)?, reach, &self.rules.table)
     }
 
     /// The largest motion of any node since t_n, beside the mean of all: what moves as a whole comes no nearer `[L]`.
@@ -258,6 +91,7 @@ impl Skin {
         let motion = self.motion_to(x);
         let near = self.look(x, motion)?;
         self.refuse_missed(x, (&near, motion))?;
+        self.rules.options.search_distance = self.given;
         let brought = self.brought_by(x, lambda)?;
         for held in &mut self.held {
             let (contact, room) = held.at(&self.whole, x, lambda)?;
@@ -327,6 +161,7 @@ impl Skin {
             "facets {f} and {g} of the skin have met within the step, and {} pairs in all, but were out of reach at its start; they are looked for now: solve the step again from t_n, or a smaller one",
             missed.len()
         );
+        self.rules.options.search_distance = self.given.map(|reach| reach.max(MOTIONS * motion));
         self.begin_anew(motion)?;
         Err(Error::new(Kind::ContactLost, text))
     }
@@ -349,7 +184,7 @@ impl Skin {
                 next.store(Next::Kept(k))?;
                 continue;
             }
-            let mut made = Held::new(&self.whole, piece, &self.rules)?;
+            let mut made = Held::new(&self.whole, piece, &self.rules, self.rules.options)?;
             let mut slip = memory::filled(Vec3::zeros(), made.copies[0].len())?;
             for (local, &a) in made.copies[0].iter().enumerate().filter(|(local, _)| made.has_multiplier[*local]) {
                 if brought.had[a] {
@@ -442,58 +277,4 @@ impl Skin {
         let with = nodes.filter(|(_, has)| **has).map(|(&b, _)| (distance(b), b));
         with.min_by(|p, q| p.0.total_cmp(&q.0)).map(|nearest| nearest.1)
     }
-
-    /// Which copies have their multiplier in a piece.
-    pub(super) fn claimed(&self) -> Result<Vec<bool>> {
-        let mut claimed = memory::filled(false, self.whole.copies())?;
-        for held in &self.held {
-            held.copies[0].iter().zip(&held.has_multiplier).for_each(|(&a, &has)| claimed[a] |= has);
-        }
-        Ok(claimed)
-    }
-
-    /// Refuses positions and multipliers that are no such.
-    pub(super) fn check(&self, x: &[Vec3], lambda: &[Vec3]) -> Result<()> {
-        self.whole.check(x)?;
-        if lambda.len() != self.whole.copies() {
-            let text = text!("lambda has {} nodes; the skin has {} copies", lambda.len(), self.whole.copies());
-            return Err(Error::new(Kind::InvalidSize, text));
-        }
-        match lambda.iter().position(|l| !l.iter().all(|v| v.is_finite())) {
-            None => Ok(()),
-            Some(a) => Err(Error::new(Kind::NotFinite, text!("lambda of copy {a} is not finite"))),
-        }
-    }
-}
-
-/// Where the nodes of the host are in the first configuration.
-fn reference(whole: &Whole) -> Result<Vec<Vec3>> {
-    let mut x = memory::filled(Vec3::zeros(), whole.nodes)?;
-    whole.originals.iter().zip(&whole.surface.reference).for_each(|(&a, place)| x[a] = *place);
-    Ok(x)
-}
-
-/// Friction of all pieces, by what is near now.
-fn set_friction(
-    whole: &Whole,
-    rules: &Rules,
-    (sides, near): (&Sides, &[Near]),
-    held: &mut dyn Iterator<Item = &mut Held>,
-) -> Result<()> {
-    let mut all: Vec<&mut Held> = Vec::new();
-    all.store_all(held)?;
-    let (mut claims, mut last) = (memory::filled(0_u32, whole.nodes)?, memory::filled(usize::MAX, whole.nodes)?);
-    for (p, held) in all.iter().enumerate() {
-        for (&a, _) in held.copies[0].iter().zip(&held.has_multiplier).filter(|(_, has)| **has) {
-            let node = whole.originals[a];
-            claims[node] += u32::from(last[node] != p);
-            last[node] = p;
-        }
-    }
-    all.into_iter().try_for_each(|held| held.set_friction(whole, rules, (&sides.roles, near, &claims)))
-}
-
-/// Whether a multiplier has an equation.
-pub(super) fn is_there(equations: &[i64; 3]) -> bool {
-    *equations != [NO_EQUATION; 3]
 }
