@@ -9,7 +9,7 @@ use super::table::{Between, Table};
 use super::whole::{Given, Whole};
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::Vec3;
-use crate::interface::{Friction, MortarSide, NO_EQUATION, Options};
+use crate::interface::{Friction, MortarSide, NO_EQUATION, Options, free_directions};
 use crate::memory::{self, Store, Stored};
 
 /// What has happened to a skin since it was created.
@@ -71,6 +71,19 @@ enum Next {
     /// This one of the present ones.
     Kept(usize),
     Made(Held),
+}
+
+/// A step that follows, and all that it takes to put it in place, so that nothing is refused then.
+struct Change {
+    start: Start,
+    next: Vec<Next>,
+    /// Of each piece what it does not have yet.
+    friction: Vec<Option<[Vec<f64>; 2]>>,
+    /// Room for the pieces of now, of then, those that are dropped, and where those of now have gone.
+    present: Vec<Option<Held>>,
+    held: Vec<Held>,
+    dropped: Vec<Held>,
+    order: Vec<Slot>,
 }
 
 /// What the nodes bring along: of each copy its slip so far and its multiplier, where it had one.
@@ -156,18 +169,26 @@ impl Skin {
         if let Some(body) = bodies.into_iter().find(|&body| body >= known) {
             return Err(Error::new(Kind::IndexOutOfRange, text!("body {body} of {known}")));
         }
+        let before = self.rules.table.between(bodies);
         self.rules.table.set(bodies, between)?;
-        self.begin_anew(0.0)
+        let done = self.begin_anew(0.0);
+        if done.is_err() {
+            self.rules.table.put_back(bodies, before);
+        }
+        done
     }
 
     /// Directions in which nodes of the host are prescribed on both sides of a contact; replaces all earlier ones.
     pub fn set_constraints(&mut self, directions: Vec<(usize, Vec3)>) -> Result<()> {
-        if let Some((node, _)) = directions.iter().find(|(node, _)| *node >= self.whole.nodes) {
-            let text = text!("a constraint names node {node}; the skin has {}", self.whole.nodes);
-            return Err(Error::new(Kind::IndexOutOfRange, text));
+        // What is wrong with the directions themselves is told by the host's numbers, and before a piece has the nodes.
+        free_directions(&memory::filled([0; 3], self.whole.nodes)?, &directions)?;
+        let mut free = memory::with_room(self.held.len())?;
+        for held in &mut self.held {
+            free.store(held.constrained(&self.whole, &directions)?)?;
         }
+        self.held.iter_mut().zip(free).for_each(|(held, free)| held.contact.constrain(free));
         self.rules.constraints = directions;
-        self.held.iter_mut().try_for_each(|held| held.set_constraints(&self.whole, &self.rules))
+        Ok(())
     }
 
     /// Takes the pieces that t_n asks for, with room for a motion; none of them has been there before.
@@ -180,7 +201,7 @@ impl Skin {
         for Wanted { piece, .. } in wanted {
             held.store(Held::new(&self.whole, piece, &self.rules)?)?;
         }
-        set_friction(&self.whole, &self.rules, (&sides, &near), &mut held.iter_mut())?;
+        set_friction(&self.whole, &self.rules, (&sides, &near), &mut held)?;
         self.counts.made += held.len() as i64;
         (self.held, self.start.sides, self.start.near) = (held, sides, near);
         (self.is_planned, self.before) = (false, None);
@@ -195,7 +216,8 @@ impl Skin {
         let (x, commits) = (memory::copied(&self.start.x)?, self.start.commits);
         let brought = self.brought_from_start()?;
         let (start, next, _) = self.follow(x, (motion, commits), &brought)?;
-        self.replace(start, next)?;
+        let change = self.change(start, next)?;
+        self.replace(change)?;
         self.before = None;
         Ok(())
     }
@@ -211,7 +233,7 @@ impl Skin {
 
     /// Takes the pieces and the start of another time, after which no commit can be undone.
     pub(super) fn put_in_place(&mut self, start: Start, mut held: Vec<Held>) -> Result<()> {
-        set_friction(&self.whole, &self.rules, (&start.sides, &start.near), &mut held.iter_mut())?;
+        set_friction(&self.whole, &self.rules, (&start.sides, &start.near), &mut held)?;
         (self.held, self.start, self.is_planned, self.before) = (held, start, false, None);
         Ok(())
     }
@@ -223,19 +245,23 @@ impl Skin {
         let motion = self.motion_to(x);
         self.refuse_missed(x, motion)?;
         let mut brought = self.brought_by(x, lambda)?;
+        let mut steps = memory::with_room(self.held.len())?;
         for held in &mut self.held {
             let (contact, room) = held.at(&self.whole, x, lambda)?;
-            contact.check_commit(&room.x[0], &room.x[1], &room.lambda, None)?;
+            steps.store(Some(contact.next(&room.x[0], &room.x[1], &room.lambda, None)?))?;
         }
         let commits = self.start.commits.saturating_add(1);
         let (start, next, taken) = self.follow(memory::copied(x)?, (motion, commits), &brought)?;
         taken.iter().for_each(|&(a, of_other)| brought.lambda[a] = of_other);
-        // From here on nothing is refused but for want of memory.
-        for k in next.iter().filter_map(|next| if let Next::Kept(k) = next { Some(*k) } else { None }) {
-            let (contact, room) = self.held[k].at(&self.whole, x, lambda)?;
-            contact.commit(&room.x[0], &room.x[1], &room.lambda, None)?;
+        let change = self.change(start, next)?;
+        let mut claimed = memory::filled(false, self.whole.copies())?;
+        // From here on nothing is refused.
+        for k in change.next.iter().filter_map(|next| if let Next::Kept(k) = next { Some(*k) } else { None }) {
+            if let Some(step) = steps[k].take() {
+                self.held[k].contact.accept(step);
+            }
         }
-        self.replace(start, next)?;
+        self.replace(change)?;
         for (a, lambda) in lambda.iter_mut().enumerate() {
             *lambda = if brought.had[a] || taken.binary_search_by_key(&a, |t| t.0).is_ok() {
                 brought.lambda[a]
@@ -243,32 +269,44 @@ impl Skin {
                 Vec3::zeros()
             };
         }
-        let claimed = self.claimed()?;
+        self.claim(&mut claimed);
         lambda.iter_mut().zip(claimed).filter(|(_, claimed)| !claimed).for_each(|(l, _)| *l = Vec3::zeros());
         Ok(())
     }
 
     /// Undoes the last commit exactly; the host takes its multipliers of then.
     pub fn roll_back(&mut self) -> Result<()> {
-        let Some(Before { start, dropped, order }) = self.before.take() else {
+        let Some(before) = &self.before else {
             let text = "no commit can be undone: none was made since creation, import, the last rollback or the last refusal of missed contact";
             return Err(Error::new(Kind::NothingToRollBack, text));
         };
-        let mut held = memory::with_room(order.len())?;
-        let mut present = std::mem::take(&mut self.held).into_iter().map(Some).stored()?;
-        let mut dropped = dropped.into_iter().map(Some).stored()?;
-        for slot in order {
-            match slot {
-                Slot::Kept(k) => {
-                    if let Some(mut one) = present[k].take() {
-                        one.contact.roll_back()?;
-                        held.store(one)?;
-                    }
-                }
-                Slot::Dropped(k) => held.store_all(dropped[k].take().into_iter())?,
+        let n = before.order.len();
+        let (mut last, mut old, mut held) = (memory::with_room(n)?, memory::with_room(n)?, memory::with_room(n)?);
+        for slot in &before.order {
+            let (one, pairing) = match *slot {
+                Slot::Kept(k) => (&self.held[k], Some(self.held[k].contact.last()?)),
+                Slot::Dropped(k) => (&before.dropped[k], None),
+            };
+            last.store(pairing)?;
+            old.store(one)?;
+        }
+        let friction = friction_of(&self.whole, &self.rules, (&before.start.sides, &before.start.near), &old)?;
+        let (mut present, mut others) = (memory::with_room(self.held.len())?, memory::with_room(before.dropped.len())?);
+        // From here on nothing is refused.
+        let Some(Before { start, dropped, order }) = self.before.take() else { return Ok(()) };
+        present.store_all(std::mem::take(&mut self.held).into_iter().map(Some))?;
+        others.store_all(dropped.into_iter().map(Some))?;
+        for ((slot, pairing), mu) in order.into_iter().zip(last).zip(friction) {
+            let one = match slot {
+                Slot::Kept(k) => present[k].take(),
+                Slot::Dropped(k) => others[k].take(),
+            };
+            if let Some(mut one) = one {
+                pairing.into_iter().for_each(|pairing| one.contact.go_back(pairing));
+                one.take_friction(mu)?;
+                held.store(one)?;
             }
         }
-        set_friction(&self.whole, &self.rules, (&start.sides, &start.near), &mut held.iter_mut())?;
         (self.held, self.start, self.is_planned) = (held, start, false);
         Ok(())
     }
@@ -295,12 +333,12 @@ impl Skin {
         let missed: Vec<_> = deep.filter(|p| !is_known(p)).copied().stored()?;
         let Some(first) = missed.first() else { return Ok(()) };
         let [f, g] = first.facets;
-        self.counts.missed += 1;
         let text: Text = text!(
             "facets {f} and {g} of the skin have met within the step, and {} pairs in all, but were out of reach at its start; they are looked for now: solve the step again from t_n, or a smaller one",
             missed.len()
         );
         self.begin_anew(motion)?;
+        self.counts.missed += 1;
         Err(Error::new(Kind::ContactLost, text))
     }
 
@@ -341,32 +379,47 @@ impl Skin {
         Ok((Start { x, commits, motion, sides, near }, next, taken))
     }
 
-    /// Puts the next step in place; what is dropped is kept for a rollback.
-    fn replace(&mut self, start: Start, next: Vec<Next>) -> Result<()> {
-        let mut present = std::mem::take(&mut self.held).into_iter().map(Some).stored()?;
-        let mut order = memory::filled(Slot::Dropped(0), present.len())?;
-        let mut held = memory::with_room(next.len())?;
+    /// The step that follows, with friction and room for all that is put in place.
+    fn change(&self, start: Start, next: Vec<Next>) -> Result<Change> {
+        let mut pieces = memory::with_room(next.len())?;
+        pieces.store_all(next.iter().map(|next| match next {
+            Next::Kept(k) => &self.held[*k],
+            Next::Made(one) => one,
+        }))?;
+        let friction = friction_of(&self.whole, &self.rules, (&start.sides, &start.near), &pieces)?;
+        let n = self.held.len();
+        let (present, dropped) = (memory::with_room(n)?, memory::with_room(n)?);
+        let (held, order) = (memory::with_room(next.len())?, memory::filled(Slot::Dropped(0), n)?);
+        Ok(Change { start, next, friction, present, held, dropped, order })
+    }
+
+    /// Puts the next step in place; what is dropped is kept for a rollback. Nothing is refused: there is room.
+    fn replace(&mut self, change: Change) -> Result<()> {
+        let Change { start, next, friction, mut present, mut held, mut dropped, mut order } = change;
+        present.store_all(std::mem::take(&mut self.held).into_iter().map(Some))?;
         let all_kept = next.len() == present.len() && next.iter().all(|n| matches!(n, Next::Kept(_)));
-        for next in next {
-            match next {
+        for (next, mu) in next.into_iter().zip(friction) {
+            let one = match next {
                 Next::Kept(k) => {
                     order[k] = Slot::Kept(held.len());
-                    held.store_all(present[k].take().into_iter())?;
+                    present[k].take()
                 }
                 Next::Made(one) => {
                     self.counts.made += 1;
-                    held.store(one)?;
+                    Some(one)
                 }
+            };
+            if let Some(mut one) = one {
+                one.take_friction(mu)?;
+                held.store(one)?;
             }
         }
-        let mut dropped = Vec::new();
         for (k, one) in present.into_iter().enumerate() {
             if let Some(one) = one {
                 order[k] = Slot::Dropped(dropped.len());
                 dropped.store(one)?;
             }
         }
-        set_friction(&self.whole, &self.rules, (&start.sides, &start.near), &mut held.iter_mut())?;
         self.counts.exchanged += start.sides.exchanged as i64;
         let start = std::mem::replace(&mut self.start, start);
         (self.held, self.before) = (held, Some(Before { start, dropped, order }));
@@ -420,10 +473,14 @@ impl Skin {
     /// Which copies have their multiplier in a piece.
     pub(super) fn claimed(&self) -> Result<Vec<bool>> {
         let mut claimed = memory::filled(false, self.whole.copies())?;
+        self.claim(&mut claimed);
+        Ok(claimed)
+    }
+
+    fn claim(&self, claimed: &mut [bool]) {
         for held in &self.held {
             held.copies[0].iter().zip(&held.has_multiplier).for_each(|(&a, &has)| claimed[a] |= has);
         }
-        Ok(claimed)
     }
 
     /// Refuses positions and multipliers that are no such.
@@ -447,15 +504,19 @@ fn reference(whole: &Whole) -> Result<Vec<Vec3>> {
     Ok(x)
 }
 
-/// Friction of all pieces, by what is near now.
-fn set_friction(
+/// Friction of new pieces, by what is near now.
+fn set_friction(whole: &Whole, rules: &Rules, near: (&Sides, &[Near]), held: &mut [Held]) -> Result<()> {
+    let friction = friction_of(whole, rules, near, &held.iter().stored()?)?;
+    held.iter_mut().zip(friction).try_for_each(|(held, mu)| held.take_friction(mu))
+}
+
+/// Friction of all pieces, by what is near now, of each for [`Held::take_friction`].
+fn friction_of(
     whole: &Whole,
     rules: &Rules,
     (sides, near): (&Sides, &[Near]),
-    held: &mut dyn Iterator<Item = &mut Held>,
-) -> Result<()> {
-    let mut all: Vec<&mut Held> = Vec::new();
-    all.store_all(held)?;
+    all: &[&Held],
+) -> Result<Vec<Option<[Vec<f64>; 2]>>> {
     let (mut claims, mut last) = (memory::filled(0_u32, whole.nodes)?, memory::filled(usize::MAX, whole.nodes)?);
     for (p, held) in all.iter().enumerate() {
         for (&a, _) in held.copies[0].iter().zip(&held.has_multiplier).filter(|(_, has)| **has) {
@@ -464,7 +525,7 @@ fn set_friction(
             last[node] = p;
         }
     }
-    all.into_iter().try_for_each(|held| held.set_friction(whole, rules, (&sides.roles, near, &claims)))
+    all.iter().map(|held| held.friction(whole, rules, (&sides.roles, near, &claims))).stored_if_ok()
 }
 
 /// Whether a multiplier has an equation.
