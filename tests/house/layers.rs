@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 /// Modules and what each may import, lowest first.
-const ALLOWED: [(&str, &[&str]); 18] = [
+const ALLOWED: [(&str, &[&str]); 19] = [
     ("error", &[]),
     ("features", &["error"]),
     ("memory", &["error"]),
@@ -45,6 +45,7 @@ const ALLOWED: [(&str, &[&str]); 18] = [
             "threads",
         ],
     ),
+    ("skin", &["adjacency", "error", "geometry", "interface", "law", "line", "memory", "mortar"]),
 ];
 
 fn sources(module: &str) -> Vec<PathBuf> {
