@@ -49,7 +49,7 @@ if(NOT cannot_fold)
 endif()
 
 # All of cargo's features, or a list of those that are wanted: docs/abi.md says what each adds.
-set(known_features analytic condensed heat laws lines offsets points quadratic rigid)
+set(known_features analytic condensed heat laws lines offsets points quadratic rigid sensitivity skin)
 set(STICKSLIP_FEATURES "all" CACHE STRING "What is built of what can be left out: all, none, or a list of ${known_features}")
 if(NOT STICKSLIP_FEATURES STREQUAL "all")
   if(STICKSLIP_TESTS)
