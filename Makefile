@@ -44,7 +44,7 @@ help:
 	@echo "make ranks   contact on eight ranks, however few processors there are: a minute; a part of make test-full"
 	@echo "make ranks-full  scenes in full length on two ranks against one, an hour or two; can be resumed"
 	@echo "make digest  the bits of what library and driver compute, compared with those of before (KEEP=1: these are they)"
-	@echo "make fuzz    fuzz the pair kernel, the handle, its effects and the C ABI, a quarter of an hour each (FUZZ_SECONDS=)"
+	@echo "make fuzz    fuzz the pair kernel, the handle, its effects, general contact and the C ABI, a quarter of an hour each (FUZZ_SECONDS=)"
 	@echo "make wheel   the Python package as a wheel, in $(BUILD)/wheels"
 	@echo "make python-examples   its examples, with the libraries they need, in an environment below $(BUILD)/"
 	@echo "make hosts   programs on deal.II, MFEM, scikit-fem, FElupe, SfePy, petsc4py, and in CalculiX: installs these, compares them with the driver; hosts/README.md"

@@ -40,8 +40,19 @@ fn variable(name: &str) -> String {
 
 /// The features that are built, with commas, or "none". cargo gives their names in capitals.
 fn features() -> String {
-    const NAMES: [&str; 10] =
-        ["analytic", "condensed", "heat", "laws", "lines", "offsets", "points", "quadratic", "rigid", "sensitivity"];
+    const NAMES: [&str; 11] = [
+        "analytic",
+        "condensed",
+        "heat",
+        "laws",
+        "lines",
+        "offsets",
+        "points",
+        "quadratic",
+        "rigid",
+        "sensitivity",
+        "skin",
+    ];
     let built = |name: &str| std::env::var_os(format!("CARGO_FEATURE_{}", name.to_uppercase())).is_some();
     let built: Vec<&str> = NAMES.into_iter().filter(|name| built(name)).collect();
     if built.is_empty() { "none".into() } else { built.join(",") }

@@ -36,9 +36,15 @@ else()
 endif()
 set(remapped "build.rustflags=['--remap-path-prefix=${cargo_home}=/cargo', '--remap-path-prefix=${PROJECT_SOURCE_DIR}=/stickslip']")
 
-# What is not marked to be inlined is inlined where its body is small, as for a size that has to be kept: the library is a tenth
-# smaller. Kernels are marked, and stay as they are. A debug build inlines next to nothing anyhow.
-set(small_library -C llvm-args=-inline-threshold=60)
+# What the library is compiled with so that it is small. Kernels are marked to be inlined and written with four lanes: they stay as they
+# are, to the last bit, and so does everything else. A debug build inlines next to nothing anyhow.
+# - What is not marked is inlined where its body is small, as for a size that has to be kept: a tenth less.
+# - What is marked `#[inline]`, as much of the standard library is, and what is called in loops is inlined up to 200 instead of 325 and 525
+#   of the compiler's measure. What stands between two blocks of a tangent would be slower so: it is marked `#[inline(always)]`.
+# - Loops whose length is known at run time alone are neither unrolled nor turned into lanes: outside of kernels they are short.
+set(small_library
+  -C llvm-args=-inline-threshold=60 -C llvm-args=-inlinehint-threshold=200 -C llvm-args=-locally-hot-callsite-threshold=200
+  -C llvm-args=-unroll-runtime=false -C no-vectorize-loops)
 # Functions with the same code, as interfaces of one and of three multipliers a node often have, are kept once where the linker of rustc
 # can do so (lld, gold, mold).
 file(WRITE "${PROJECT_BINARY_DIR}/fold.rs" "")
@@ -49,7 +55,7 @@ if(NOT cannot_fold)
 endif()
 
 # All of cargo's features, or a list of those that are wanted: docs/abi.md says what each adds.
-set(known_features analytic condensed heat laws lines offsets points quadratic rigid)
+set(known_features analytic condensed heat laws lines offsets points quadratic rigid sensitivity skin)
 set(STICKSLIP_FEATURES "all" CACHE STRING "What is built of what can be left out: all, none, or a list of ${known_features}")
 if(NOT STICKSLIP_FEATURES STREQUAL "all")
   if(STICKSLIP_TESTS)
@@ -68,9 +74,9 @@ if(NOT STICKSLIP_FEATURES STREQUAL "all")
 endif()
 
 # cargo alone knows whether something changed, so it is asked each time; what depends on it relinks only if the files
-# are newer.
+# are newer. The library for Rust is left out: what is public in Rust alone is then nobody's, and can be inlined where it is called once.
 add_custom_target(stickslip_cargo ALL
-  COMMAND "${CARGO_EXECUTABLE}" --config "${remapped}" rustc --profile ${cargo_profile} --locked --lib ${cargo_features} --target-dir "${STICKSLIP_CARGO_TARGET_DIR}"
+  COMMAND "${CARGO_EXECUTABLE}" --config "${remapped}" rustc --profile ${cargo_profile} --locked --lib --crate-type cdylib,staticlib ${cargo_features} --target-dir "${STICKSLIP_CARGO_TARGET_DIR}"
           -- ${small_library} --print "native-static-libs=${cargo_dir}/native-static-libs.txt"
   COMMAND "${CMAKE_COMMAND}" "-Dfrom=${cargo_dir}" "-Dshared=${STICKSLIP_SHARED}" "-Dstatic=${STICKSLIP_STATIC}"
           "-Dsoversion=${STICKSLIP_SOVERSION}" "-Dobjcopy=$<$<NOT:$<BOOL:${STICKSLIP_DEBUG}>>:${CMAKE_OBJCOPY}>" -P "${PROJECT_SOURCE_DIR}/cmake/stage.cmake"

@@ -9,7 +9,7 @@ cd "$(dirname "$0")"
 
 seconds=${1:?usage: fuzz/run.sh SECONDS|kept [TARGET...]}
 shift
-targets=("${@:-pair interface effects abi}")
+targets=("${@:-pair interface effects skin abi}")
 read -ra targets <<<"${targets[*]}"
 triple=$(rustc -vV | sed -n 's/^host: //p')
 build=${CARGO_TARGET_DIR:-$PWD/target}/fuzz

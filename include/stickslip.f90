@@ -233,6 +233,12 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_HEAT_ALL = 1
   integer(c_int32_t), parameter :: STICKSLIP_HEAT_SLOPES = 5
 
+  ! Of stickslip_skin_set_pair in place of mu: the two bodies do not see each other. Sides of a skin's facet.
+  real(c_double), parameter :: STICKSLIP_SKIN_APART = -1.0_c_double
+  integer(c_int32_t), parameter :: STICKSLIP_SKIN_NONE = 0
+  integer(c_int32_t), parameter :: STICKSLIP_SKIN_NONMORTAR = 1
+  integer(c_int32_t), parameter :: STICKSLIP_SKIN_MORTAR = 2
+
   ! Sizes of the types in bytes (64-bit machines), their struct_size.
   integer(c_int64_t), parameter :: stickslip_method_size = 104
   integer(c_int64_t), parameter :: stickslip_options_size = 88
@@ -255,6 +261,8 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_heat_nodes_size = 48
   integer(c_int64_t), parameter :: stickslip_gradient_size = 72
   integer(c_int64_t), parameter :: stickslip_direction_size = 72
+  integer(c_int64_t), parameter :: stickslip_skin_sides_size = 48
+  integer(c_int64_t), parameter :: stickslip_skin_summary_size = 64
 
   ! A contact interface, made by stickslip_interface_create and ended by stickslip_interface_destroy. A copy means the
   ! same interface. One thread at a time.
@@ -266,6 +274,13 @@ module stickslip
   ! Where the entries of a nodal matrix with rigid bodies go, made by stickslip_rigid_create and ended by stickslip_rigid_destroy. A
   ! copy means the same. One thread at a time.
   type, bind(C) :: stickslip_rigid
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  end type
+
+  ! General contact: the skin of all bodies, made by stickslip_skin_create and ended by stickslip_skin_destroy. A copy means
+  ! the same. One thread at a time.
+  type, bind(C) :: stickslip_skin
     private
     type(c_ptr) :: handle = c_null_ptr
   end type
@@ -618,6 +633,28 @@ module stickslip
     type(c_ptr) :: shear_limit = c_null_ptr
     type(c_ptr) :: offsets1 = c_null_ptr
     type(c_ptr) :: offsets2 = c_null_ptr
+  end type
+
+  ! What stickslip_skin_facets tells of each facet; what stays null is not wanted.
+  type, bind(C) :: stickslip_skin_sides
+    integer(c_int64_t) :: struct_size = stickslip_skin_sides_size
+    type(c_ptr) :: side = c_null_ptr               ! integer(c_int32_t) (n_facets): STICKSLIP_SKIN_...
+    type(c_ptr) :: piece = c_null_ptr              ! integer(c_int64_t) (n_facets): of a non-mortar facet, from 0; -1 of the others
+    type(c_ptr) :: partner = c_null_ptr            ! integer(c_int64_t) (n_facets): the nearest facet in reach; -1: none
+    type(c_ptr) :: distance = c_null_ptr           ! real(c_double) (n_facets): how far it is at t_n, negative: in each other [L]
+    type(c_ptr) :: body = c_null_ptr               ! integer(c_int64_t) (n_facets): the number of its body
+  end type
+
+  ! What a skin has found in this step, and done since its creation.
+  type, bind(C) :: stickslip_skin_summary
+    integer(c_int64_t) :: struct_size = stickslip_skin_summary_size
+    integer(c_int64_t) :: bodies = 0
+    integer(c_int64_t) :: pieces = 0               ! interfaces of this step
+    integer(c_int64_t) :: pairs = 0                ! pairs of facets that may touch in this step
+    integer(c_int64_t) :: contradictions = 0       ! pairs that could not be put on different sides; none is known to occur
+    integer(c_int64_t) :: made = 0                 ! interfaces made since creation
+    integer(c_int64_t) :: exchanged = 0            ! facets in contact that have exchanged their side
+    integer(c_int64_t) :: missed = 0               ! steps refused since facets met that were out of reach
   end type
 
   interface
@@ -1505,6 +1542,197 @@ module stickslip
       real(c_double), intent(in) :: x1(*), x2(*), lambda(*)
       type(stickslip_direction), intent(in) :: direction
       real(c_double), intent(inout) :: force1(*), force2(*), rows(*)
+    end function
+
+    ! Creates general contact over a skin, whose coordinates are the first configuration and t_0. bodies(n_facets): c_loc of
+    ! the numbers of the facets' bodies, or c_null_ptr: what hangs together is one. first_multiplier: the first equation of
+    ! multipliers. A handle that was in use must be destroyed first.
+    integer(c_int32_t) function stickslip_skin_create(surface, bodies, first_multiplier, options, out) bind(C)
+      import :: c_int32_t, c_int64_t, c_ptr, stickslip_options, stickslip_skin, stickslip_surface
+      type(stickslip_surface), intent(in) :: surface
+      type(c_ptr), value :: bodies
+      integer(c_int64_t), value :: first_multiplier
+      type(stickslip_options), intent(in) :: options
+      type(stickslip_skin), intent(inout) :: out
+    end function
+
+    ! Destroys a skin. One that was never created, or is destroyed already, is fine.
+    integer(c_int32_t) function stickslip_skin_destroy(skin) bind(C)
+      import :: c_int32_t, stickslip_skin
+      type(stickslip_skin), intent(inout) :: skin
+    end function
+
+    ! The copies of a skin's nodes, which have the multipliers: originals(count), equations(3, count), of lines (2, count); both
+    ! c_null_ptr: only count and multipliers are written.
+    integer(c_int32_t) function stickslip_skin_copies(skin, capacity, originals, equations, count, multipliers) bind(C)
+      import :: c_int32_t, c_int64_t, c_ptr, stickslip_skin
+      type(stickslip_skin), value :: skin
+      integer(c_int64_t), value :: capacity
+      type(c_ptr), value :: originals, equations
+      integer(c_int64_t), intent(inout) :: count, multipliers
+    end function
+
+    ! What there is between two bodies, or within one: friction mu >= 0, or STICKSLIP_SKIN_APART. Make the plan again.
+    integer(c_int32_t) function stickslip_skin_set_pair(skin, body1, body2, mu) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, stickslip_skin
+      type(stickslip_skin), value :: skin
+      integer(c_int64_t), value :: body1, body2
+      real(c_double), value :: mu
+    end function
+
+    ! Directions(3, n), of lines (2, n), in which displacement is prescribed on both sides at nodes(n). Replaces all earlier ones.
+    integer(c_int32_t) function stickslip_skin_set_constraints(skin, n, nodes, directions) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, stickslip_skin
+      type(stickslip_skin), value :: skin
+      integer(c_int64_t), value :: n
+      integer(c_int64_t), intent(in) :: nodes(*)
+      real(c_double), intent(in) :: directions(*)
+    end function
+
+    ! Multipliers lambda(3, copies), of lines (2, copies), to start the first step with.
+    integer(c_int32_t) function stickslip_skin_initial_multipliers(skin, lambda) bind(C)
+      import :: c_double, c_int32_t, stickslip_skin
+      type(stickslip_skin), value :: skin
+      real(c_double), intent(inout) :: lambda(*)
+    end function
+
+    ! Residual in internal-force sign: add it to your internal forces. x(3, nodes), lambda(3, copies); force(3, nodes),
+    ! rows(3, copies); of lines 2 in place of 3.
+    integer(c_int32_t) function stickslip_skin_residual(skin, x, lambda, force, rows) bind(C)
+      import :: c_double, c_int32_t, stickslip_skin
+      type(stickslip_skin), value :: skin
+      real(c_double), intent(in) :: x(*), lambda(*)
+      real(c_double), intent(inout) :: force(*), rows(*)
+    end function
+
+    ! Makes the plan of the tangent: its entries, which may be there more than once and add up. pairs: STICKSLIP_PLAN_ACTIVE, _SKIN.
+    integer(c_int32_t) function stickslip_skin_plan(skin, x, pairs, count) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, stickslip_skin
+      type(stickslip_skin), value :: skin
+      real(c_double), intent(in) :: x(*)
+      integer(c_int32_t), value :: pairs
+      integer(c_int64_t), intent(inout) :: count
+    end function
+
+    ! The entries of the plan in the order of the values: rows(capacity), columns(capacity).
+    integer(c_int32_t) function stickslip_skin_plan_coo(skin, capacity, rows, columns) bind(C)
+      import :: c_int32_t, c_int64_t, stickslip_skin
+      type(stickslip_skin), value :: skin
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(inout) :: rows(*), columns(*)
+    end function
+
+    ! The same in 32 bits.
+    integer(c_int32_t) function stickslip_skin_plan_coo32(skin, capacity, rows, columns) bind(C)
+      import :: c_int32_t, c_int64_t, stickslip_skin
+      type(stickslip_skin), value :: skin
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: rows(*), columns(*)
+    end function
+
+    ! The exact tangent in the order of the plan's entries: values(capacity), overwritten.
+    integer(c_int32_t) function stickslip_skin_plan_values(skin, x, lambda, capacity, values) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, stickslip_skin
+      type(stickslip_skin), value :: skin
+      real(c_double), intent(in) :: x(*), lambda(*)
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout) :: values(*)
+    end function
+
+    ! State and results of every copy: the members of out are c_loc of arrays with copies in place of n1, or c_null_ptr.
+    integer(c_int32_t) function stickslip_skin_states(skin, x, lambda, out) bind(C)
+      import :: c_double, c_int32_t, stickslip_skin, stickslip_states
+      type(stickslip_skin), value :: skin
+      real(c_double), intent(in) :: x(*), lambda(*)
+      type(stickslip_states), intent(in) :: out
+    end function
+
+    ! How far x, lambda is from contact equilibrium; nodes are copies. out: two inputs and all outputs.
+    integer(c_int32_t) function stickslip_skin_equilibrium(skin, x, lambda, out) bind(C)
+      import :: c_double, c_int32_t, stickslip_equilibrium, stickslip_skin
+      type(stickslip_skin), value :: skin
+      real(c_double), intent(in) :: x(*), lambda(*)
+      type(stickslip_equilibrium), intent(inout) :: out
+    end function
+
+    ! How much of a step dx(3, nodes) of Newton's method may be taken; penetration: above 0 and at most 1, 0: the default.
+    integer(c_int32_t) function stickslip_skin_step_limit(skin, x, dx, penetration, fraction) bind(C)
+      import :: c_double, c_int32_t, stickslip_skin
+      type(stickslip_skin), value :: skin
+      real(c_double), intent(in) :: x(*), dx(*)
+      real(c_double), value :: penetration
+      real(c_double), intent(inout) :: fraction
+    end function
+
+    ! Which normals evaluations use until the next commit: STICKSLIP_NORMALS_COMMITTED or _CURRENT.
+    integer(c_int32_t) function stickslip_skin_use_normals(skin, normals) bind(C)
+      import :: c_int32_t, stickslip_skin
+      type(stickslip_skin), value :: skin
+      integer(c_int32_t), value :: normals
+    end function
+
+    ! Turns multipliers lambda(3, copies), in and out, as the skin turns from t_n to x(3, nodes).
+    integer(c_int32_t) function stickslip_skin_turn_multipliers(skin, x, lambda) bind(C)
+      import :: c_double, c_int32_t, stickslip_skin
+      type(stickslip_skin), value :: skin
+      real(c_double), intent(in) :: x(*)
+      real(c_double), intent(inout) :: lambda(*)
+    end function
+
+    ! Accepts a converged step: x(3, nodes), lambda(3, copies) become t_n; lambda changes where sides do. After
+    ! STICKSLIP_CONTACT_LOST solve the same step again, with a new plan, or a smaller one.
+    integer(c_int32_t) function stickslip_skin_commit(skin, x, lambda) bind(C)
+      import :: c_double, c_int32_t, stickslip_skin
+      type(stickslip_skin), value :: skin
+      real(c_double), intent(in) :: x(*)
+      real(c_double), intent(inout) :: lambda(*)
+    end function
+
+    ! Undoes the last commit exactly. Make the plan again.
+    integer(c_int32_t) function stickslip_skin_rollback(skin) bind(C)
+      import :: c_int32_t, stickslip_skin
+      type(stickslip_skin), value :: skin
+    end function
+
+    ! Lengths of the arrays that hold the history now; they change with each commit.
+    integer(c_int32_t) function stickslip_skin_history_size(skin, n_integers, n_reals) bind(C)
+      import :: c_int32_t, c_int64_t, stickslip_skin
+      type(stickslip_skin), value :: skin
+      integer(c_int64_t), intent(inout) :: n_integers, n_reals
+    end function
+
+    ! Writes the history to integers(n_integers) and reals(n_reals), for a restart file.
+    integer(c_int32_t) function stickslip_skin_history_export(skin, n_integers, integers, n_reals, reals) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, stickslip_skin
+      type(stickslip_skin), value :: skin
+      integer(c_int64_t), value :: n_integers
+      integer(c_int64_t), intent(inout) :: integers(*)
+      integer(c_int64_t), value :: n_reals
+      real(c_double), intent(inout) :: reals(*)
+    end function
+
+    ! Replaces the history by an exported one of the same skin. Make the plan again.
+    integer(c_int32_t) function stickslip_skin_history_import(skin, n_integers, integers, n_reals, reals) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, stickslip_skin
+      type(stickslip_skin), value :: skin
+      integer(c_int64_t), value :: n_integers
+      integer(c_int64_t), intent(in) :: integers(*)
+      integer(c_int64_t), value :: n_reals
+      real(c_double), intent(in) :: reals(*)
+    end function
+
+    ! Who may touch whom in this step, facet by facet: the members of out are c_loc of arrays, or c_null_ptr.
+    integer(c_int32_t) function stickslip_skin_facets(skin, out) bind(C)
+      import :: c_int32_t, stickslip_skin, stickslip_skin_sides
+      type(stickslip_skin), value :: skin
+      type(stickslip_skin_sides), intent(in) :: out
+    end function
+
+    ! What the skin has found in this step, and done since its creation.
+    integer(c_int32_t) function stickslip_skin_report(skin, out) bind(C)
+      import :: c_int32_t, stickslip_skin, stickslip_skin_summary
+      type(stickslip_skin), value :: skin
+      type(stickslip_skin_summary), intent(inout) :: out
     end function
   end interface
 end module

@@ -144,6 +144,22 @@
  *     rigid_values                           in each Newton iteration, after the nodal matrix
  *     rigid_turn                             after each converged step; rigid_destroy at the end
  *
+ * General contact, in place of interfaces: the skin of all bodies, each of which may touch every other one and itself
+ *
+ *     skin_create                            once; skin_copies for the equations of its multipliers
+ *     skin_set_pair, skin_set_constraints    what differs between bodies; directions that are prescribed on both sides
+ *     skin_initial_multipliers               once, before the first step
+ *     skin_residual                          in each Newton iteration
+ *     skin_plan                              once, and again when values are refused because an entry is missing
+ *     skin_plan_coo, skin_plan_coo32         its entries; they add up
+ *     skin_plan_values                       in each Newton iteration
+ *     skin_step_limit, skin_equilibrium      as of an interface
+ *     skin_states, skin_facets, skin_report  for output
+ *     skin_turn_multipliers                  at the start of a step; skin_use_normals for a step in two phases
+ *     skin_commit                            after each converged step; skin_rollback undoes it
+ *     skin_history_size                      for restarts, with skin_history_export, skin_history_import
+ *     skin_destroy                           at the end
+ *
  * Both: version, build, status_string, last_error_message, last_error_padded. */
 
 #ifndef STICKSLIP_H
@@ -3161,7 +3177,7 @@ int32_t stickslip_skin_equilibrium(struct stickslip_skin *skin,
 ///
 /// x (3 nodes), dx (3 nodes) [L]; penetration: above 0 and at most 1 [-]; 0: the default. fraction, output.
 ///
-/// Errors: as `stickslip_interface_step_limit`.
+/// Errors: NULL_POINTER, INVALID_VALUE (penetration), NOT_FINITE, and as `stickslip_interface_step_limit`.
 /// Cost: as there.
 int32_t stickslip_skin_step_limit(struct stickslip_skin *skin,
                                   const double *x,

@@ -112,6 +112,11 @@ fn effects_of_any_bytes() {
 }
 
 #[test]
+fn skins_of_any_bytes() {
+    replay("skin", targets::skin::run, 3_000);
+}
+
+#[test]
 fn the_abi_of_any_bytes() {
     replay("abi", targets::abi::run, 100_000);
 }

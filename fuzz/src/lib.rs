@@ -9,6 +9,7 @@ pub mod interface;
 mod lines;
 mod meshes;
 pub mod pair;
+pub mod skin;
 mod watched;
 
 use bytes::Bytes;

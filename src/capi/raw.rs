@@ -205,10 +205,11 @@ pub(super) fn write_equations(p: *mut i64, equations: &[i64], base: i64) {
 /// Copies values one by one to `p`; nothing where `p` is null.
 pub(super) fn write_each<T>(p: *mut T, values: impl Iterator<Item = T>) {
     if !p.is_null() {
-        for (k, value) in values.enumerate() {
+        // `for_each`: of vectors in vectors it is two loops, not a question at each value which one comes next.
+        values.enumerate().for_each(|(k, value)| {
             // SAFETY: writable for as many values as the documentation says; the iterator gives those.
             unsafe { p.add(k).write(value) }
-        }
+        });
     }
 }
 

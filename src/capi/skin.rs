@@ -58,12 +58,15 @@ impl stickslip_skin {
     /// Writes vectors to the caller.
     pub(super) fn write(&self, p: *mut f64, vectors: &[Vec3], name: &str) -> Result<()> {
         let per = self.inner.whole().components();
-        if !vectors.iter().all(|v| v.iter().all(|v| v.is_finite())) {
-            return raw::overflow(name);
-        }
+        check_vectors(vectors, name)?;
         raw::write_each(p, vectors.iter().flat_map(|v| v.iter().copied().take(per)));
         Ok(())
     }
+}
+
+/// Refuses results that left the range of doubles.
+fn check_vectors(vectors: &[Vec3], name: &str) -> Result<()> {
+    if vectors.iter().all(|v| v.iter().all(|v| v.is_finite())) { Ok(()) } else { raw::overflow(name) }
 }
 
 /// Creates general contact over a skin, whose coordinates are the first configuration and t_0. No pairs and no sides are named: at
@@ -111,7 +114,11 @@ pub unsafe extern "C" fn stickslip_skin_create(
             true => None,
             false => Some(memory::copied(raw::slice(bodies, facets.len(), "bodies")?)?),
         };
-        let first = first_multiplier.saturating_sub(base);
+        if first_multiplier < base {
+            let text = text!("first_multiplier is {first_multiplier}; at least {base} is allowed");
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+        let first = first_multiplier - base;
         let all_nodes = options.space == MultiplierSpace::Sub;
         let given = Given { x, facets, equations, bodies, first, measure, all_nodes };
         let inner = Skin::new(given, options)?;
@@ -273,6 +280,8 @@ pub unsafe extern "C" fn stickslip_skin_residual(
         raw::check(force, "force")?;
         raw::check(rows, "rows")?;
         let found = h.inner.residual(&x, &lambda)?;
+        check_vectors(&found.forces, "force")?;
+        check_vectors(&found.rows, "rows")?;
         h.write(force, &found.forces, "force")?;
         h.write(rows, &found.rows, "rows")
     })
@@ -397,22 +406,35 @@ pub unsafe extern "C" fn stickslip_skin_states(
         let out = sized::read(out)?;
         check_states(&out)?;
         let all = h.inner.states(&x, &lambda)?;
-        let vectors = |of: fn(&OfCopy) -> Vec3| all.iter().map(of).stored();
-        for (p, of, name) in [
+        let numbers = [
             (out.gap, (|c| c.gap) as fn(&OfCopy) -> f64, "gap"),
             (out.coverage, |c| c.coverage, "coverage"),
             (out.area, |c| c.area, "area"),
             (out.dissipation, |c| c.dissipation, "dissipation"),
             (out.augmentation, |c| c.augmentation, "augmentation"),
             (out.share, |c| c.share, "share"),
-        ] {
-            let values: Vec<f64> = all.iter().map(of).stored()?;
-            raw::check_results(name, &values)?;
-            raw::write(p, &values);
+        ];
+        let vectors = [
+            (out.normal, (|c| c.normal) as fn(&OfCopy) -> Vec3, "normal"),
+            (out.traction, |c| c.traction, "traction"),
+            (out.slip, |c| c.slip, "slip"),
+        ];
+        // All is looked at before anything is written.
+        for (_, of, name) in numbers {
+            if !all.iter().all(|c| of(c).is_finite()) {
+                return raw::overflow(name);
+            }
         }
-        h.write(out.normal, &vectors(|c| c.normal)?, "normal")?;
-        h.write(out.traction, &vectors(|c| c.traction)?, "traction")?;
-        h.write(out.slip, &vectors(|c| c.slip)?, "slip")?;
+        for (_, of, name) in vectors {
+            if !all.iter().all(|c| of(c).iter().all(|v| v.is_finite())) {
+                return raw::overflow(name);
+            }
+        }
+        let per = h.inner.whole().components();
+        numbers.into_iter().for_each(|(p, of, _)| raw::write_each(p, all.iter().map(of)));
+        for (p, of, _) in vectors {
+            raw::write_each(p, all.iter().map(of).flat_map(|v| <[f64; 3]>::from(v).into_iter().take(per)));
+        }
         raw::write_each(out.state, all.iter().map(|c| c.state as i32));
         Ok(())
     })
@@ -445,7 +467,7 @@ pub unsafe extern "C" fn stickslip_skin_equilibrium(
 ///
 /// x (3 nodes), dx (3 nodes) [L]; penetration: above 0 and at most 1 [-]; 0: the default. fraction, output.
 ///
-/// Errors: as `stickslip_interface_step_limit`.
+/// Errors: NULL_POINTER, INVALID_VALUE (penetration), NOT_FINITE, and as `stickslip_interface_step_limit`.
 /// Cost: as there.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_skin_step_limit(

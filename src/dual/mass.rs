@@ -63,7 +63,7 @@ impl Mass {
     }
 
     /// m^-1 `v`; 0 at absent nodes.
-    #[inline]
+    #[inline(always)]
     pub fn solve(&self, v: &[f64; MAX_CORNERS]) -> [f64; MAX_CORNERS] {
         let (s, l, mut x) = (&self.scale, &self.lower, [0.0; MAX_CORNERS]);
         for a in 0..self.nodes {

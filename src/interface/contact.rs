@@ -27,7 +27,7 @@ use super::stages::spin::refuse_spin;
 use super::stages::sums::NodeSums;
 use super::stages::turn::refuse_turn;
 use crate::error::{Error, Kind, Result, Text};
-use crate::geometry::Vec3;
+use crate::geometry::{Mat3, Vec3};
 use crate::law::{Coefficient, NodeResponse};
 use crate::memory::{self, Store};
 use nalgebra::SVector;
@@ -108,7 +108,8 @@ pub(super) struct Before {
 }
 
 /// What a commit would put in place.
-struct Next {
+#[derive(Debug)]
+pub(crate) struct Next {
     step: Step,
     /// Whether the pairs are those where it begins.
     active: bool,
@@ -190,15 +191,27 @@ impl<const N: usize> Contact<N> {
     /// At a Dirichlet edge over a deformable mortar side do not declare it: the patch test needs that
     /// component.
     pub fn set_constraints(&mut self, directions: &[(usize, Vec3)]) -> Result<()> {
+        let free = self.constrained(directions)?;
+        self.constrain(free);
+        Ok(())
+    }
+
+    /// What constraints leave free of each node, where every node keeps a normal; nothing is changed.
+    pub(crate) fn constrained(&mut self, directions: &[(usize, Vec3)]) -> Result<Vec<Mat3>> {
         let free = free_directions(&self.setup.multiplier_equations, directions)?;
         let old = std::mem::replace(&mut self.setup.nodes.free, free);
         self.step.forget_normals();
-        if let Err(e) = self.given().normals() {
-            self.setup.nodes.free = old;
-            return Err(e);
-        }
+        let normals = self.given().normals().map(|_| ());
+        let free = std::mem::replace(&mut self.setup.nodes.free, old);
+        self.step.forget_normals();
+        normals.map(|()| free)
+    }
+
+    /// Puts in place what [`Contact::constrained`] has found.
+    pub(crate) fn constrain(&mut self, free: Vec<Mat3>) {
+        self.setup.nodes.free = free;
+        self.step.forget_normals();
         self.cache.forget();
-        Ok(())
     }
 
     /// Where the multipliers of the nodes act, of a part of an interface. Facets of which no node acts here are left out, unless
@@ -389,12 +402,17 @@ impl<const N: usize> Contact<N> {
         sums: Option<&[NodeSums]>,
     ) -> Result<()> {
         let next = self.next(x1, x2, lambda, sums)?;
+        self.accept(next);
+        Ok(())
+    }
+
+    /// Puts in place what [`Contact::next`] has found; nothing is refused.
+    pub(crate) fn accept(&mut self, next: Next) {
         let old = self.put_in_place(next.step.pairing, next.step.history, next.active);
         if let Some(points) = next.points {
             self.cache.settle_points(points);
         }
         self.spare = self.rollback.replace(old).map(|before| before.history);
-        Ok(())
     }
 
     /// Whether [`Contact::commit`] would accept the step: its refusals, and nothing changes.
@@ -409,9 +427,9 @@ impl<const N: usize> Contact<N> {
         Ok(())
     }
 
-    /// The step that follows a converged one.
+    /// The step that follows a converged one, to be accepted where all interfaces of a skin have found theirs.
     #[inline(never)] // for a commit and its check
-    fn next(
+    pub(crate) fn next(
         &mut self,
         x1: &[Vec3],
         x2: &[Vec3],
@@ -476,17 +494,27 @@ impl<const N: usize> Contact<N> {
     /// # Errors
     /// [`Kind::NothingToRollBack`] when there is none; only one commit can be undone.
     pub fn roll_back(&mut self) -> Result<()> {
+        let pairing = self.last()?;
+        self.go_back(pairing);
+        Ok(())
+    }
+
+    /// The pairs of the step before the last commit, to go back to where all interfaces of a skin have found theirs.
+    pub(crate) fn last(&self) -> Result<Pairing> {
         let Some(Before { history, .. }) = &self.rollback else {
             let text = "no commit can be undone: none was made since creation, import or the last rollback";
             return Err(Error::new(Kind::NothingToRollBack, text));
         };
         let filter = commit::filter_of(self.setup.surfaces(), &self.setup.options, history)?;
-        let mut pairing = Pairing::new(&self.setup, filter, history)?;
+        Pairing::new(&self.setup, filter, history)
+    }
+
+    /// Goes back to what [`Contact::last`] has found; nothing is refused.
+    pub(crate) fn go_back(&mut self, mut pairing: Pairing) {
         if let Some(Before { history, hidden }) = self.rollback.take() {
             pairing.put_hidden(hidden);
             self.put_in_place(pairing, history, false);
         }
-        Ok(())
     }
 
     fn host(&self) -> Host<'_> {

@@ -46,7 +46,7 @@ pub use data::extent::Extent;
 pub use data::facet_gaps::FacetGaps;
 pub use data::facet_nodes::{FacetNodes, ParentNodes};
 pub use data::history::History;
-pub use data::node_data::Owner;
+pub use data::node_data::{Owner, free_directions};
 pub use data::options::{
     COVERAGE_MIN, Decision, Form, Friction, MODULUS_FACTOR, MortarSide, MultiplierBasis, NO_WEAK_COVERAGE, NewContact,
     Normals, Options, RowScale, Scheme, Shortcuts, Stiffness, TURN_MAX, Tangent, Weights, Wishes,

@@ -113,33 +113,28 @@ impl Kernel for Motion<'_> {
         summation.finish();
         integrals.contract(&moments, &fields, &mut sums);
         let chain = Chain::new(frame, segment);
-        for b in 0..rolled(side1.0.n) {
-            let mut to = Block { to: &mut to.one, column: b };
-            to_nodes(&chain, &sums.one, &function(side1.0, b), side1.0.terms, &mut to);
-        }
-        for c in 0..rolled(side2.0.n) {
-            let mut to = Block { to: &mut to.two, column: c };
-            to_nodes(&chain, &sums.two, &function(side2.0, c), side2.0.terms, &mut to);
-        }
-        for a in 0..rolled(space.nodes(side1.0, side1.1).len()) {
-            let mut function = [0.0; TERMS];
-            for s in 0..6 {
-                function[s] = rows.of[s][a & 3];
+        // One loop for all three: what it does is inlined into it, and three of them would make the library larger.
+        for which in 0..rolled(3) {
+            let (n, terms, plane) = match which {
+                0 => (side1.0.n, side1.0.terms, &sums.one),
+                1 => (side2.0.n, side2.0.terms, &sums.two),
+                _ => (space.nodes(side1.0, side1.1).len(), rows.n, &sums.gap),
+            };
+            for column in 0..rolled(n) {
+                let (function, mut to) = match which {
+                    0 => (function(side1.0, column), Block::of(&mut to.one, column)),
+                    1 => (function(side2.0, column), Block::of(&mut to.two, column)),
+                    _ => (row(&rows, column), Block::of(&mut to.gap, column)),
+                };
+                to_nodes(&chain, plane, &function, terms, &mut to);
             }
-            to_nodes(&chain, &sums.gap, &function, rows.n, &mut Block { to: &mut to.gap, column: a });
         }
     }
 }
 
 /// From monomials to a function with these coefficients, and from corners to nodes.
 #[inline(always)]
-fn to_nodes<L: Lanes, const N: usize>(
-    chain: &Chain<L>,
-    plane: &Plane<L>,
-    function: &[f64; TERMS],
-    terms: usize,
-    to: &mut Block<N>,
-) {
+fn to_nodes<L: Lanes>(chain: &Chain<L>, plane: &Plane<L>, function: &[f64; TERMS], terms: usize, to: &mut Block) {
     let mut g: PlaneDerivatives<L> = [[L::splat(0.0); 2]; PAIR_CORNERS];
     for side in 0..2 {
         let mut sums = [[L::splat(0.0); 2]; MAX_CORNERS];
@@ -175,18 +170,36 @@ fn function(parent: &Parent, b: usize) -> [f64; TERMS] {
     of
 }
 
+/// Those of the function of a row.
+#[inline(always)]
+fn row(rows: &Rows, a: usize) -> [f64; TERMS] {
+    let mut of = [0.0; TERMS];
+    for s in 0..6 {
+        of[s] = rows.of[s][a & 3];
+    }
+    of
+}
+
 /// Where the derivatives of a column go.
-struct Block<'a, const N: usize> {
-    to: &'a mut Blocks<N>,
+struct Block<'a> {
+    /// `[k][j]`, then so many columns.
+    to: &'a mut [[f64; 4]],
+    columns: usize,
     column: usize,
 }
 
-impl<L: Lanes, const N: usize> Columns<L> for Block<'_, N> {
+impl<'a> Block<'a> {
+    #[inline(always)]
+    fn of<const N: usize>(blocks: &'a mut Blocks<N>, column: usize) -> Self {
+        Block { to: blocks.as_flattened_mut().as_flattened_mut(), columns: N, column }
+    }
+}
+
+impl<L: Lanes> Columns<L> for Block<'_> {
     #[inline(always)]
     fn set(&mut self, k: usize, columns: [L; 3]) {
-        let to = &mut self.to[k];
         for j in 0..3 {
-            to[j][self.column] = columns[j].store();
+            self.to[(3 * k + j) * self.columns + self.column] = columns[j].store();
         }
     }
 }

@@ -133,6 +133,7 @@ impl Skin {
     /// Rows and columns of the plan's entries, in the order of their values.
     pub fn plan_entries(&self, take: &mut dyn FnMut(i64, i64) -> Result<()>) -> Result<()> {
         self.plan_len()?;
+        let alone = self.alone()?; // before anything is taken, for there may be no memory
         for held in &self.held {
             let (plan, of) = held.contact.plan(PlanSystem::Whole)?;
             let mut rows = plan.rows().0.iter();
@@ -141,7 +142,7 @@ impl Skin {
                 columns.iter().try_for_each(|&column| take(row, column))
             })?;
         }
-        for (a, _) in self.alone()? {
+        for (a, _) in alone {
             self.whole.multipliers[a].iter().take(self.whole.components()).try_for_each(|&e| take(e, e))?;
         }
         Ok(())

@@ -8,8 +8,8 @@ use super::table::{Between, Table};
 use super::whole::{Given, Whole};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
-use crate::interface::{Decision, Friction, MortarSide, NO_EQUATION, Options};
-use crate::memory::{self, Store};
+use crate::interface::{Decision, Friction, MortarSide, NO_EQUATION, Options, free_directions};
+use crate::memory::{self, Store, Stored};
 
 /// What has happened to a skin since it was created.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -148,18 +148,26 @@ impl Skin {
         if let Some(body) = bodies.into_iter().find(|&body| body >= known) {
             return Err(Error::new(Kind::IndexOutOfRange, text!("body {body} of {known}")));
         }
+        let before = self.rules.table.between(bodies);
         self.rules.table.set(bodies, between)?;
-        self.begin_anew(0.0)
+        let done = self.begin_anew(0.0);
+        if done.is_err() {
+            self.rules.table.put_back(bodies, before);
+        }
+        done
     }
 
     /// Directions in which nodes of the host are prescribed on both sides of a contact; replaces all earlier ones.
     pub fn set_constraints(&mut self, directions: Vec<(usize, Vec3)>) -> Result<()> {
-        if let Some((node, _)) = directions.iter().find(|(node, _)| *node >= self.whole.nodes) {
-            let text = text!("a constraint names node {node}; the skin has {}", self.whole.nodes);
-            return Err(Error::new(Kind::IndexOutOfRange, text));
+        // What is wrong with the directions themselves is told by the host's numbers, and before a piece has the nodes.
+        free_directions(&memory::filled([0; 3], self.whole.nodes)?, &directions)?;
+        let mut free = memory::with_room(self.held.len())?;
+        for held in &mut self.held {
+            free.store(held.constrained(&self.whole, &directions)?)?;
         }
+        self.held.iter_mut().zip(free).for_each(|(held, free)| held.contact.constrain(free));
         self.rules.constraints = directions;
-        self.held.iter_mut().try_for_each(|held| held.set_constraints(&self.whole, &self.rules))
+        Ok(())
     }
 
     /// Takes the pieces that t_n asks for, with room for a motion; none of them has been there before.
@@ -171,7 +179,7 @@ impl Skin {
         for Wanted { piece, .. } in wanted {
             held.store(Held::new(&self.whole, piece, &self.rules, self.rules.options)?)?;
         }
-        set_friction(&self.whole, &self.rules, (&sides, &near), &mut held.iter_mut())?;
+        set_friction(&self.whole, &self.rules, (&sides, &near), &mut held)?;
         self.counts.made += held.len() as i64;
         (self.held, self.start.sides, self.start.near) = (held, sides, near);
         (self.is_planned, self.before) = (false, None);
@@ -187,10 +195,14 @@ impl Skin {
     /// Which copies have their multiplier in a piece.
     pub(super) fn claimed(&self) -> Result<Vec<bool>> {
         let mut claimed = memory::filled(false, self.whole.copies())?;
+        self.claim(&mut claimed);
+        Ok(claimed)
+    }
+
+    pub(super) fn claim(&self, claimed: &mut [bool]) {
         for held in &self.held {
             held.copies[0].iter().zip(&held.has_multiplier).for_each(|(&a, &has)| claimed[a] |= has);
         }
-        Ok(claimed)
     }
 
     /// Refuses positions and multipliers that are no such.
@@ -214,15 +226,19 @@ fn reference(whole: &Whole) -> Result<Vec<Vec3>> {
     Ok(x)
 }
 
-/// Friction of all pieces, by what is near now.
-pub(super) fn set_friction(
+/// Friction of new pieces, by what is near now.
+pub(super) fn set_friction(whole: &Whole, rules: &Rules, near: (&Sides, &[Near]), held: &mut [Held]) -> Result<()> {
+    let friction = friction_of(whole, rules, near, &held.iter().stored()?)?;
+    held.iter_mut().zip(friction).try_for_each(|(held, mu)| held.take_friction(mu))
+}
+
+/// Friction of all pieces, by what is near now, of each for [`Held::take_friction`].
+pub(super) fn friction_of(
     whole: &Whole,
     rules: &Rules,
     (sides, near): (&Sides, &[Near]),
-    held: &mut dyn Iterator<Item = &mut Held>,
-) -> Result<()> {
-    let mut all: Vec<&mut Held> = Vec::new();
-    all.store_all(held)?;
+    all: &[&Held],
+) -> Result<Vec<Option<[Vec<f64>; 2]>>> {
     let (mut claims, mut last) = (memory::filled(0_u32, whole.nodes)?, memory::filled(usize::MAX, whole.nodes)?);
     for (p, held) in all.iter().enumerate() {
         for (&a, _) in held.copies[0].iter().zip(&held.has_multiplier).filter(|(_, has)| **has) {
@@ -231,7 +247,7 @@ pub(super) fn set_friction(
             last[node] = p;
         }
     }
-    all.into_iter().try_for_each(|held| held.set_friction(whole, rules, (&sides.roles, near, &claims)))
+    all.iter().map(|held| held.friction(whole, rules, (&sides.roles, near, &claims))).stored_if_ok()
 }
 
 /// Whether a multiplier has an equation.

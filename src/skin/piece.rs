@@ -6,7 +6,7 @@ use super::roles::Role;
 use super::table::{Between, Table};
 use super::whole::Whole;
 use crate::error::Result;
-use crate::geometry::Vec3;
+use crate::geometry::{Mat3, Vec3};
 use crate::interface::{Interface, NO_EQUATION, Options, Surface};
 use crate::law::Coefficient;
 use crate::memory::{self, Store, Stored};
@@ -73,23 +73,23 @@ impl Held {
         let equations = copies[0].iter().zip(&has_multiplier);
         let equations = equations.map(|(&a, &has)| if has { whole.multipliers[a] } else { [NO_EQUATION; 3] });
         let mut contact = Interface::new(nonmortar, mortar, equations.stored()?, options)?;
-        let declared = constraints_of(whole, &copies[0], rules)?;
+        let declared = constraints_of(whole, &copies[0], &rules.constraints)?;
         if !declared.is_empty() {
             contact.set_constraints(&declared)?;
         }
         Ok(Held { piece, copies, has_multiplier, mu: Vec::new(), contact, room: Room::default() })
     }
 
-    /// Friction by the bodies that its nodes are between. `near`: the pairs of now; `claims`: how many copies of each node of the
-    /// host have multipliers.
-    pub fn set_friction(
-        &mut self,
+    /// Friction by the bodies that its nodes are between, twice for [`Held::take_friction`]; `None`: it is as before. `near`: the
+    /// pairs of now; `claims`: how many copies of each node of the host have multipliers.
+    pub fn friction(
+        &self,
         whole: &Whole,
         rules: &Rules,
         (roles, near, claims): (&[Role], &[Near], &[u32]),
-    ) -> Result<()> {
+    ) -> Result<Option<[Vec<f64>; 2]>> {
         if rules.options.friction.law().mu != Coefficient::Given {
-            return Ok(());
+            return Ok(None);
         }
         let mut mu = memory::filled(rules.options.mu, self.copies[0].len())?;
         let mut nearest = memory::filled(f64::INFINITY, mu.len())?;
@@ -120,16 +120,19 @@ impl Held {
             true => mu.iter().all(|&mu| mu == rules.options.mu),
             false => mu == self.mu,
         };
-        if !is_as_before {
-            self.mu = memory::copied(&mu)?;
-            self.contact.set_friction(mu)?;
-        }
-        Ok(())
+        if is_as_before { Ok(None) } else { Ok(Some([memory::copied(&mu)?, mu])) }
     }
 
-    /// What the host says of directions now.
-    pub fn set_constraints(&mut self, whole: &Whole, rules: &Rules) -> Result<()> {
-        self.contact.set_constraints(&constraints_of(whole, &self.copies[0], rules)?)
+    /// Takes what [`Held::friction`] has found; nothing is refused.
+    pub fn take_friction(&mut self, mu: Option<[Vec<f64>; 2]>) -> Result<()> {
+        let Some([own, of_contact]) = mu else { return Ok(()) };
+        self.mu = own;
+        self.contact.set_friction(of_contact)
+    }
+
+    /// What directions leave free of each of its nodes.
+    pub fn constrained(&mut self, whole: &Whole, directions: &[(usize, Vec3)]) -> Result<Vec<Mat3>> {
+        self.contact.constrained(&constraints_of(whole, &self.copies[0], directions)?)
     }
 
     /// Goes to its part of positions of the host's nodes and of multipliers of the copies, or of none.
@@ -185,10 +188,10 @@ fn surface_of(whole: &Whole, side: &'static str, facets: &[usize], copies: &[usi
 }
 
 /// The directions that are declared of some copies, by their places.
-fn constraints_of(whole: &Whole, copies: &[usize], rules: &Rules) -> Result<Vec<(usize, Vec3)>> {
+fn constraints_of(whole: &Whole, copies: &[usize], directions: &[(usize, Vec3)]) -> Result<Vec<(usize, Vec3)>> {
     let mut declared = Vec::new();
     for (local, &a) in copies.iter().enumerate() {
-        let of_node = rules.constraints.iter().filter(|(node, _)| *node == whole.originals[a]);
+        let of_node = directions.iter().filter(|(node, _)| *node == whole.originals[a]);
         declared.store_all(of_node.map(|&(_, direction)| (local, direction)))?;
     }
     Ok(declared)

@@ -1,6 +1,6 @@
 //! A skin from step to step: what a commit keeps and makes anew, and what takes it back.
 
-use super::handle::{Before, Skin, Slot, Start, set_friction};
+use super::handle::{Before, Skin, Slot, Start, friction_of, set_friction};
 use super::missed::are_in_each_other;
 use super::near::{MOTIONS, Near};
 use super::piece::Held;
@@ -15,6 +15,19 @@ enum Next {
     /// This one of the present ones.
     Kept(usize),
     Made(Held),
+}
+
+/// A step that follows, and all that it takes to put it in place, so that nothing is refused then.
+struct Change {
+    start: Start,
+    next: Vec<Next>,
+    /// Of each piece what it does not have yet.
+    friction: Vec<Option<[Vec<f64>; 2]>>,
+    /// Room for the pieces of now, of then, those that are dropped, and where those of now have gone.
+    present: Vec<Option<Held>>,
+    held: Vec<Held>,
+    dropped: Vec<Held>,
+    order: Vec<Slot>,
 }
 
 /// What the nodes bring along: of each copy its slip so far and its multiplier, where it had one.
@@ -34,7 +47,8 @@ impl Skin {
         let (near, brought) = (self.look(&x, motion)?, self.brought_from_start()?);
         let start = Start { x, commits, motion, sides: Sides::default(), near };
         let (start, next, _) = self.follow(start, &self.start.sides.roles, &brought)?;
-        self.replace(start, next)?;
+        let change = self.change(start, next)?;
+        self.replace(change)?;
         self.before = None;
         Ok(())
     }
@@ -48,9 +62,46 @@ impl Skin {
 
     /// Takes the pieces and the start of another time, after which no commit can be undone.
     pub(super) fn put_in_place(&mut self, start: Start, mut held: Vec<Held>) -> Result<()> {
-        set_friction(&self.whole, &self.rules, (&start.sides, &start.near), &mut held.iter_mut())?;
+        set_friction(&self.whole, &self.rules, (&start.sides, &start.near), &mut held)?;
         (self.held, self.start, self.is_planned, self.before) = (held, start, false, None);
         Ok(())
+    }
+
+    /// Accepts a converged step: `x` becomes t_n. Writes the multipliers of copies that have none any more, or that take over from
+    /// the other side.
+    pub fn commit(&mut self, x: &[Vec3], lambda: &mut [Vec3]) -> Result<()> {
+        self.check(x, lambda)?;
+        let motion = self.motion_to(x);
+        let near = self.look(x, motion)?;
+        self.refuse_missed(x, (&near, motion))?;
+        self.rules.options.search_distance = self.given;
+        let brought = self.brought_by(x, lambda)?;
+        let mut steps = memory::with_room(self.held.len())?;
+        for held in &mut self.held {
+            let (contact, room) = held.at(&self.whole, x, lambda)?;
+            steps.store(Some(contact.next(&room.x[0], &room.x[1], &room.lambda, None)?))?;
+        }
+        let commits = self.start.commits.saturating_add(1);
+        let start = Start { x: memory::copied(x)?, commits, motion, sides: Sides::default(), near };
+        let (start, next, taken) = self.follow(start, &self.start.sides.roles, &brought)?;
+        let change = self.change(start, next)?;
+        let mut claimed = memory::filled(false, self.whole.copies())?;
+        // From here on nothing is refused.
+        for k in change.next.iter().filter_map(|next| if let Next::Kept(k) = next { Some(*k) } else { None }) {
+            if let Some(step) = steps[k].take() {
+                self.held[k].contact.accept(step);
+            }
+        }
+        self.replace(change)?;
+        self.take_over((lambda, &mut claimed), &taken);
+        Ok(())
+    }
+
+    /// Writes what copies have taken over from the other side, and 0 to those that are in no piece; `claimed`: room.
+    fn take_over(&self, (lambda, claimed): (&mut [Vec3], &mut [bool]), taken: &[(usize, Vec3)]) {
+        taken.iter().for_each(|&(a, of_other)| lambda[a] = of_other);
+        self.claim(claimed);
+        lambda.iter_mut().zip(claimed).filter(|(_, claimed)| !**claimed).for_each(|(l, _)| *l = Vec3::zeros());
     }
 
     /// Exchanges the sides of all facets at t_n, for a step that does not converge however small it is: that may depend on the side
@@ -71,66 +122,47 @@ impl Skin {
         let (mut start, next, taken) = self.follow(start, &before, &brought)?;
         let exchanged = |(now, before): &(&Role, &Role)| **now != Role::None && now == before;
         start.sides.exchanged = start.sides.roles.iter().zip(&before).filter(exchanged).count();
-        self.replace(start, next)?;
+        let (change, mut claimed) = (self.change(start, next)?, memory::filled(false, self.whole.copies())?);
+        // From here on nothing is refused.
+        self.replace(change)?;
         self.before = None;
-        taken.iter().for_each(|&(a, of_other)| lambda[a] = of_other);
-        self.clear_unclaimed(lambda)
-    }
-
-    /// Copies that are in no piece have no multiplier.
-    fn clear_unclaimed(&self, lambda: &mut [Vec3]) -> Result<()> {
-        let claimed = self.claimed()?;
-        lambda.iter_mut().zip(claimed).filter(|(_, claimed)| !claimed).for_each(|(l, _)| *l = Vec3::zeros());
+        self.take_over((lambda, &mut claimed), &taken);
         Ok(())
-    }
-
-    /// Accepts a converged step: `x` becomes t_n. Writes the multipliers of copies that have none any more, or that take over from
-    /// the other side.
-    pub fn commit(&mut self, x: &[Vec3], lambda: &mut [Vec3]) -> Result<()> {
-        self.check(x, lambda)?;
-        let motion = self.motion_to(x);
-        let near = self.look(x, motion)?;
-        self.refuse_missed(x, (&near, motion))?;
-        self.rules.options.search_distance = self.given;
-        let brought = self.brought_by(x, lambda)?;
-        for held in &mut self.held {
-            let (contact, room) = held.at(&self.whole, x, lambda)?;
-            contact.check_commit(&room.x[0], &room.x[1], &room.lambda, None)?;
-        }
-        let commits = self.start.commits.saturating_add(1);
-        let start = Start { x: memory::copied(x)?, commits, motion, sides: Sides::default(), near };
-        let (start, next, taken) = self.follow(start, &self.start.sides.roles, &brought)?;
-        // From here on nothing is refused but for want of memory.
-        for k in next.iter().filter_map(|next| if let Next::Kept(k) = next { Some(*k) } else { None }) {
-            let (contact, room) = self.held[k].at(&self.whole, x, lambda)?;
-            contact.commit(&room.x[0], &room.x[1], &room.lambda, None)?;
-        }
-        self.replace(start, next)?;
-        taken.iter().for_each(|&(a, of_other)| lambda[a] = of_other);
-        self.clear_unclaimed(lambda)
     }
 
     /// Undoes the last commit exactly; the host takes its multipliers of then.
     pub fn roll_back(&mut self) -> Result<()> {
-        let Some(Before { start, dropped, order }) = self.before.take() else {
+        let Some(before) = &self.before else {
             let text = "no commit can be undone: none was made since creation, import, the last rollback or the last refusal of missed contact";
             return Err(Error::new(Kind::NothingToRollBack, text));
         };
-        let mut held = memory::with_room(order.len())?;
-        let mut present = std::mem::take(&mut self.held).into_iter().map(Some).stored()?;
-        let mut dropped = dropped.into_iter().map(Some).stored()?;
-        for slot in order {
-            match slot {
-                Slot::Kept(k) => {
-                    if let Some(mut one) = present[k].take() {
-                        one.contact.roll_back()?;
-                        held.store(one)?;
-                    }
-                }
-                Slot::Dropped(k) => held.store_all(dropped[k].take().into_iter())?,
+        let n = before.order.len();
+        let (mut last, mut old, mut held) = (memory::with_room(n)?, memory::with_room(n)?, memory::with_room(n)?);
+        for slot in &before.order {
+            let (one, pairing) = match *slot {
+                Slot::Kept(k) => (&self.held[k], Some(self.held[k].contact.last()?)),
+                Slot::Dropped(k) => (&before.dropped[k], None),
+            };
+            last.store(pairing)?;
+            old.store(one)?;
+        }
+        let friction = friction_of(&self.whole, &self.rules, (&before.start.sides, &before.start.near), &old)?;
+        let (mut present, mut others) = (memory::with_room(self.held.len())?, memory::with_room(before.dropped.len())?);
+        // From here on nothing is refused.
+        let Some(Before { start, dropped, order }) = self.before.take() else { return Ok(()) };
+        present.store_all(std::mem::take(&mut self.held).into_iter().map(Some))?;
+        others.store_all(dropped.into_iter().map(Some))?;
+        for ((slot, pairing), mu) in order.into_iter().zip(last).zip(friction) {
+            let one = match slot {
+                Slot::Kept(k) => present[k].take(),
+                Slot::Dropped(k) => others[k].take(),
+            };
+            if let Some(mut one) = one {
+                pairing.into_iter().for_each(|pairing| one.contact.go_back(pairing));
+                one.take_friction(mu)?;
+                held.store(one)?;
             }
         }
-        set_friction(&self.whole, &self.rules, (&start.sides, &start.near), &mut held.iter_mut())?;
         (self.held, self.start, self.is_planned) = (held, start, false);
         Ok(())
     }
@@ -156,13 +188,13 @@ impl Skin {
         let missed: Vec<_> = deep.filter(|p| !is_known(p)).copied().stored()?;
         let Some(first) = missed.first() else { return Ok(()) };
         let [f, g] = first.facets;
-        self.counts.missed += 1;
         let text: Text = text!(
             "facets {f} and {g} of the skin have met within the step, and {} pairs in all, but were out of reach at its start; they are looked for now: solve the step again from t_n, or a smaller one",
             missed.len()
         );
         self.rules.options.search_distance = self.given.map(|reach| reach.max(MOTIONS * motion));
         self.begin_anew(motion)?;
+        self.counts.missed += 1;
         Err(Error::new(Kind::ContactLost, text))
     }
 
@@ -202,32 +234,47 @@ impl Skin {
         Ok((Start { sides, ..start }, next, taken))
     }
 
-    /// Puts the next step in place; what is dropped is kept for a rollback.
-    fn replace(&mut self, start: Start, next: Vec<Next>) -> Result<()> {
-        let mut present = std::mem::take(&mut self.held).into_iter().map(Some).stored()?;
-        let mut order = memory::filled(Slot::Dropped(0), present.len())?;
-        let mut held = memory::with_room(next.len())?;
+    /// The step that follows, with friction and room for all that is put in place.
+    fn change(&self, start: Start, next: Vec<Next>) -> Result<Change> {
+        let mut pieces = memory::with_room(next.len())?;
+        pieces.store_all(next.iter().map(|next| match next {
+            Next::Kept(k) => &self.held[*k],
+            Next::Made(one) => one,
+        }))?;
+        let friction = friction_of(&self.whole, &self.rules, (&start.sides, &start.near), &pieces)?;
+        let n = self.held.len();
+        let (present, dropped) = (memory::with_room(n)?, memory::with_room(n)?);
+        let (held, order) = (memory::with_room(next.len())?, memory::filled(Slot::Dropped(0), n)?);
+        Ok(Change { start, next, friction, present, held, dropped, order })
+    }
+
+    /// Puts the next step in place; what is dropped is kept for a rollback. Nothing is refused: there is room.
+    fn replace(&mut self, change: Change) -> Result<()> {
+        let Change { start, next, friction, mut present, mut held, mut dropped, mut order } = change;
+        present.store_all(std::mem::take(&mut self.held).into_iter().map(Some))?;
         let all_kept = next.len() == present.len() && next.iter().all(|n| matches!(n, Next::Kept(_)));
-        for next in next {
-            match next {
+        for (next, mu) in next.into_iter().zip(friction) {
+            let one = match next {
                 Next::Kept(k) => {
                     order[k] = Slot::Kept(held.len());
-                    held.store_all(present[k].take().into_iter())?;
+                    present[k].take()
                 }
                 Next::Made(one) => {
                     self.counts.made += 1;
-                    held.store(one)?;
+                    Some(one)
                 }
+            };
+            if let Some(mut one) = one {
+                one.take_friction(mu)?;
+                held.store(one)?;
             }
         }
-        let mut dropped = Vec::new();
         for (k, one) in present.into_iter().enumerate() {
             if let Some(one) = one {
                 order[k] = Slot::Dropped(dropped.len());
                 dropped.store(one)?;
             }
         }
-        set_friction(&self.whole, &self.rules, (&start.sides, &start.near), &mut held.iter_mut())?;
         self.counts.exchanged += start.sides.exchanged as i64;
         let start = std::mem::replace(&mut self.start, start);
         (self.held, self.before) = (held, Some(Before { start, dropped, order }));

@@ -21,10 +21,11 @@ pub struct Table {
 impl Table {
     /// Says what there is between two bodies, or within one; the last word counts.
     pub fn set(&mut self, bodies: [usize; 2], between: Between) -> Result<()> {
-        if let Between::Friction(mu) = between
-            && !(mu >= 0.0 && mu.is_finite())
-        {
-            return Err(Error::new(Kind::InvalidValue, text!("mu is {mu}; it must be finite and not negative")));
+        if let Between::Friction(mu) = between {
+            let kind = if mu.is_finite() { Kind::InvalidValue } else { Kind::NotFinite };
+            if kind == Kind::NotFinite || mu < 0.0 {
+                return Err(Error::new(kind, text!("mu is {mu}; it must be finite and not negative")));
+            }
         }
         let key = sorted(bodies);
         match self.rows.iter_mut().find(|row| row.0 == key) {
@@ -32,6 +33,15 @@ impl Table {
             None => self.rows.store((key, between))?,
         }
         Ok(())
+    }
+
+    /// Goes back to what was said before the last word.
+    pub fn put_back(&mut self, bodies: [usize; 2], before: Option<Between>) {
+        let key = sorted(bodies);
+        match before {
+            Some(before) => self.rows.iter_mut().filter(|row| row.0 == key).for_each(|row| row.1 = before),
+            None => self.rows.retain(|row| row.0 != key),
+        }
     }
 
     /// What was said of two bodies.
@@ -61,6 +71,8 @@ mod tests {
         assert!(table.excludes([1, 2]) && table.excludes([2, 1]) && !table.excludes([1, 1]));
         table.set([1, 2], Between::Friction(0.5)).unwrap();
         assert_eq!((table.between([2, 1]), table.between([0, 1])), (Some(Between::Friction(0.5)), None));
-        assert!(table.set([0, 0], Between::Friction(-1.0)).unwrap_err().message.contains("mu is -1"));
+        let mut refused = |mu| table.set([0, 0], Between::Friction(mu)).unwrap_err();
+        assert!(refused(-1.0).message.contains("mu is -1"));
+        assert_eq!((refused(-1.0).kind, refused(f64::NAN).kind), (Kind::InvalidValue, Kind::NotFinite));
     }
 }

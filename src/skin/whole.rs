@@ -6,6 +6,7 @@ use crate::geometry::Vec3;
 use crate::interface::{NO_EQUATION, Surface, backs};
 use crate::line::Measure;
 use crate::memory::{self, Store, Stored};
+use crate::mortar::NonmortarFrame;
 
 /// Edges sharper than this part the skin into faces, in radians: 40 degrees.
 const CREASE: f64 = 0.7;
@@ -79,6 +80,7 @@ impl Whole {
         let of_copies = |values: &[[i64; 3]]| originals.iter().map(|&a| values[a]).stored();
         let x = originals.iter().map(|&a| uncut.reference[a]).stored()?;
         let mut surface = build(x, &anew, of_copies(&uncut.equations)?)?;
+        check_facets(&surface)?;
         let is_same = |f: usize, g: usize| bodies[surface.host_facet(f)] == bodies[surface.host_facet(g)];
         surface.backs = backs(&surface, &is_same)?;
         let (multipliers, around) = (number(&surface, first, all_nodes)?, facets_around(&surface)?);
@@ -126,6 +128,16 @@ impl Whole {
     }
 }
 
+/// Refuses linear facets that have no area, are folded or are not convex, be they in no piece yet.
+fn check_facets(surface: &Surface) -> Result<()> {
+    if surface.parents.is_none() && surface.lines().is_none() {
+        for f in 0..surface.facets.len() {
+            NonmortarFrame::new(&surface.facet(f, &surface.reference)).map_err(surface.at(f))?;
+        }
+    }
+    Ok(())
+}
+
 /// Numbers of the bodies, from 0, in the order of their first facets; and what the host calls them, if it does.
 fn number_bodies(surface: &Surface, given: Option<Vec<i64>>) -> Result<(Vec<usize>, Vec<i64>)> {
     let (n, is_given) = (surface.host_facets(), given.is_some());
@@ -163,16 +175,18 @@ fn number_bodies(surface: &Surface, given: Option<Vec<i64>>) -> Result<(Vec<usiz
 
 /// Multiplier equations of all copies that a facet has a multiplier at, one after the other from `first`.
 fn number(surface: &Surface, first: i64, all_nodes: bool) -> Result<Vec<[i64; 3]>> {
-    if first < 0 {
-        let text = text!("first_multiplier is {first}; it must not be below the index base");
-        return Err(Error::new(Kind::InvalidValue, text));
-    }
     let components = if surface.lines().is_some() { 2 } else { 3 };
     let mut has = memory::filled(false, surface.len())?;
     for nodes in (0..surface.host_facets()).map(|f| surface.host_nodes(f)) {
         let corners = if components == 2 { 2 } else { [3, 4][usize::from(!matches!(nodes.len(), 3 | 6))] };
         let rows = if all_nodes { nodes.len() } else { corners };
         nodes[..rows].iter().for_each(|&a| has[a] = true);
+    }
+    let needed = has.iter().filter(|has| **has).count() * components;
+    if first < 0 || first.checked_add(needed as i64).is_none() {
+        let text =
+            text!("first_multiplier is {first} from 0 on; there are no numbers for the {needed} equations that follow");
+        return Err(Error::new(Kind::InvalidValue, text));
     }
     let mut next = first;
     let mut number = |has: bool| {

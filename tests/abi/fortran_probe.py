@@ -24,7 +24,7 @@ INTEGERS = {"int": "int32_t", "long": "int64_t", "long long": "int64_t", "uint64
 # Of a compiler's complaints the first ones tell what is wrong.
 MOST_TEXT = 1500
 # Handles are pointers to what C does not show; the module wraps each pointer in a type.
-HANDLES = ("stickslip_interface", "stickslip_rigid")
+HANDLES = ("stickslip_interface", "stickslip_rigid", "stickslip_skin")
 # The one type of functions of the host's; a `type(c_funptr), value` in the module.
 FUNCTION_TYPE = "stickslip_threshold"
 

@@ -56,6 +56,16 @@ def refusals(stickslip, scene, np):
         body = stickslip.RigidBody(x1, np.arange(x1.size).reshape(x1.shape), [0, 0, 0], np.arange(6) + 9999)
         body.positions()
 
+    def skin(_solid):
+        # Both sides as the skin of two bodies; the package has no such handle.
+        (x1, f1), (x2, f2) = scene.grid(2, 0.13, 1.0, 0.0, False), scene.grid(3, 0.0, 1.2, 0.0, True)
+        x = np.vstack([x1, x2])
+        surface = stickslip.Surface(x, np.vstack([f1, f2 + len(x1)]), np.arange(x.size).reshape(x.shape))._struct()
+        made, _method = stickslip.options.make({"modulus": 1000.0})
+        slot = library.ffi.new("struct stickslip_skin **")
+        library.call("skin_create", surface[0], library.ffi.NULL, x.size, made, slot)
+        library.call("skin_destroy", slot)
+
     line = np.array([(0.0, 0.0), (1.0, 0.0)])
     lines = [(line, np.array([order])) for order in ((0, 1), (1, 0))]
 
@@ -76,6 +86,7 @@ def refusals(stickslip, scene, np):
         "sensitivity": [lambda solid: solid.interface.previous_tangent(*solid.pressed(), solid.size),
                         lambda solid: solid.interface.adjoint(*solid.pressed(), *solid.pressed()),
                         lambda solid: solid.interface.sensitivity(*solid.pressed(), friction=np.ones(len(solid.x1)))],
+        "skin": [skin],
     }
     said = {}
     for name, call in ((name, call) for name, of_feature in calls.items() for call in of_feature):

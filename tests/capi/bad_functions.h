@@ -28,6 +28,10 @@ static struct {
   stickslip_interface *out;
   rigid_parts rigid;
   int64_t n_bodies, n_entries;
+  stickslip_skin *skin_out;
+  history skin_imported;
+  int64_t first_multiplier, body1, body2;
+  double skin_mu;
 } b, before;
 static double expected[UNKNOWNS];
 #define E b.every.e
@@ -44,6 +48,8 @@ typedef struct {
 #define INTERFACE {"interface", &S.interface, NEEDED}
 #define AT INTERFACE, {"x1", S.x1, NEEDED}, {"x2", S.x2, NEEDED}
 #define POINT AT, {"lambda", S.lambda, NEEDED}, {"sums", NULL, OPTIONAL}
+#define SKIN {"skin", &b.every.skin.skin, NEEDED}
+#define SKIN_POINT SKIN, {"x", b.every.skin.x, NEEDED}, {"lambda", b.every.skin.lambda, NEEDED}
 #define PAIR {"pair", &E.pair, NEEDED}
 #define WEIGHTS {"n_ab", E.w.ab, NEEDED}, {"n_ac", E.w.ac, NEEDED}
 #define OUT(object) {"out", &(object), NEEDED}
@@ -233,6 +239,40 @@ FUNCTION(rigid_coo, (a[0], b.capacity, a[1], a[2]), {"rigid", NULL, NEEDED}, {"r
 FUNCTION(rigid_values, (a[0], a[1], a[2], a[3], a[4]), {"rigid", NULL, NEEDED}, {"motions", &b.rigid.motion, NEEDED},
          {"forces", b.rigid.forces, NEEDED}, {"nodal", b.rigid.nodal, NEEDED}, {"values", b.every.rigid_values, NEEDED})
 
+FUNCTION(skin_create, (a[0], a[1], b.first_multiplier, a[2], a[3]), {"surface", &b.every.skin.surface, NEEDED},
+         {"bodies", b.every.skin.bodies, OPTIONAL}, {"options", &S.options, NEEDED}, OUT(b.skin_out))
+FUNCTION(skin_destroy, (a[0]), {"skin", &b.every.skin.skin, OPTIONAL})
+FUNCTION(skin_copies, (a[0], b.capacity, a[1], a[2], a[3], a[4]), SKIN, {"originals", b.every.copies, NEEDED},
+         {"equations", b.every.copy_equations, NEEDED}, {"count", &b.every.copy_count, NEEDED},
+         {"multipliers", &b.every.skin_multipliers, NEEDED})
+FUNCTION(skin_set_pair, (a[0], b.body1, b.body2, b.skin_mu), SKIN)
+FUNCTION(skin_set_constraints, (a[0], b.n, a[1], a[2]), SKIN, {"nodes", b.nodes, NEEDED}, {"directions", b.directions, NEEDED})
+FUNCTION(skin_initial_multipliers, (a[0], a[1]), SKIN, {"lambda", b.every.skin_initial, NEEDED})
+FUNCTION(skin_residual, (a[0], a[1], a[2], a[3], a[4]), SKIN_POINT, {"force", b.every.skin_force, NEEDED},
+         {"rows", b.every.skin_lines, NEEDED})
+FUNCTION(skin_plan, (a[0], a[1], b.pairs, a[2]), SKIN, {"x", b.every.skin.x, NEEDED}, {"count", &b.every.skin_count, NEEDED})
+FUNCTION(skin_plan_coo, (a[0], b.capacity, a[1], a[2]), SKIN, {"rows", b.every.skin_rows, NEEDED},
+         {"columns", b.every.skin_columns, NEEDED})
+FUNCTION(skin_plan_coo32, (a[0], b.capacity, a[1], a[2]), SKIN, {"rows", b.every.skin_rows32, NEEDED},
+         {"columns", b.every.skin_columns32, NEEDED})
+FUNCTION(skin_plan_values, (a[0], a[1], a[2], b.capacity, a[3]), SKIN_POINT, {"values", b.every.skin_values, NEEDED})
+FUNCTION(skin_states, (a[0], a[1], a[2], a[3]), SKIN_POINT, OUT(b.every.skin_states))
+FUNCTION(skin_equilibrium, (a[0], a[1], a[2], a[3]), SKIN_POINT, OUT(b.every.equilibrium))
+FUNCTION(skin_step_limit, (a[0], a[1], a[2], b.penetration, a[3]), SKIN, {"x", b.every.skin.x, NEEDED},
+         {"dx", b.every.skin_dx, NEEDED}, {"fraction", &b.every.skin_limit, NEEDED})
+FUNCTION(skin_use_normals, (a[0], b.which_normals), SKIN)
+FUNCTION(skin_turn_multipliers, (a[0], a[1], a[2]), SKIN_POINT)
+FUNCTION(skin_commit, (a[0], a[1], a[2]), SKIN_POINT)
+FUNCTION(skin_rollback, (a[0]), SKIN)
+FUNCTION(skin_history_size, (a[0], a[1], a[2]), SKIN, {"n_integers", &b.every.skin_history.n_integers, NEEDED},
+         {"n_reals", &b.every.skin_history.n_reals, NEEDED})
+FUNCTION(skin_history_export, (a[0], b.n_integers, a[1], b.n_reals, a[2]), SKIN,
+         {"integers", b.every.skin_history.integers, NEEDED}, {"reals", b.every.skin_history.reals, NEEDED})
+FUNCTION(skin_history_import, (a[0], b.n_integers, a[1], b.n_reals, a[2]), SKIN, {"integers", b.skin_imported.integers, NEEDED},
+         {"reals", b.skin_imported.reals, NEEDED})
+FUNCTION(skin_facets, (a[0], a[1]), SKIN, OUT(b.every.sides))
+FUNCTION(skin_report, (a[0], a[1]), SKIN, OUT(b.every.summary))
+
 #define NAMED(name) {#name, on_##name, arguments_##name, a_##name, COUNT(arguments_##name)}
 static const struct {
   const char *name;
@@ -262,6 +302,11 @@ static const struct {
     NAMED(interface_use_normals), NAMED(interface_turn_multipliers), NAMED(facet_normal_derivatives), NAMED(node_turn),
     NAMED(rigid_positions), NAMED(rigid_resultant), NAMED(rigid_turn), NAMED(rigid_create), NAMED(rigid_coo),
     NAMED(rigid_values),
+    NAMED(skin_create), NAMED(skin_destroy), NAMED(skin_copies), NAMED(skin_set_pair), NAMED(skin_set_constraints),
+    NAMED(skin_initial_multipliers), NAMED(skin_residual), NAMED(skin_plan), NAMED(skin_plan_coo), NAMED(skin_plan_coo32),
+    NAMED(skin_plan_values), NAMED(skin_states), NAMED(skin_equilibrium), NAMED(skin_step_limit), NAMED(skin_use_normals),
+    NAMED(skin_turn_multipliers), NAMED(skin_commit), NAMED(skin_rollback), NAMED(skin_history_size), NAMED(skin_history_export),
+    NAMED(skin_history_import), NAMED(skin_facets), NAMED(skin_report),
     NAMED(interface_plan), NAMED(interface_plan_coo), NAMED(interface_plan_coo32), NAMED(interface_plan_csr),
     NAMED(interface_plan_csr32), NAMED(interface_plan_values), NAMED(interface_condensed_plan),
     NAMED(interface_condensed_values),

@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-static bad_at places[800];
+static bad_at places[1000];
 static int n_places;
 
 void bad_place(const char *name, bad_type type, void *at, int32_t n) {
@@ -76,6 +76,8 @@ static const struct {
     I64(direction, struct_size), MAY(direction, previous1), MAY(direction, previous2), MAY(direction, now1),
     MAY(direction, now2), MAY(direction, friction), MAY(direction, shear_limit), MAY(direction, offsets1),
     MAY(direction, offsets2),
+    I64(skin_sides, struct_size), MAY(skin_sides, side), MAY(skin_sides, piece), MAY(skin_sides, partner),
+    MAY(skin_sides, distance), MAY(skin_sides, body), I64(skin_summary, struct_size),
     /* Of a response: what node_respond, node_block and pair_tangent read. */
     RESPONSE(answer, struct_size, INT64, 0), RESPONSE(response, struct_size, INT64, 0),
     RESPONSE(response, row, REAL, 3), RESPONSE(response, drow_dlambda, REAL, 9),

@@ -4,6 +4,7 @@
 #define EVERY_CALL_H
 
 #include "calls.h"
+#include "skin_scene.h"
 
 /* Entries that two nodes of a rigid body leave: 36 of its own, 6 of a column and 6 of a row. */
 enum { RIGID_ENTRIES = 48 };
@@ -39,6 +40,10 @@ typedef struct {
   dependence along;
   stickslip_direction direction;
   double a1[X1], a2[X2], a_rows[X1];
+  /* Of a skin, and what its history_import takes. */
+  skin_scene skin;
+  history skin_exported;
+  double skin_dx[SKIN_X];
   /* Outputs. */
   stickslip_options options;
   stickslip_method method;
@@ -89,6 +94,20 @@ typedef struct {
   stickslip_rigid_motion turned_motion;
   double rigid_x[6], resultant[6], rigid_values[RIGID_ENTRIES];
   int64_t rigid_count, rigid_rows[RIGID_ENTRIES], rigid_columns[RIGID_ENTRIES];
+  /* Of a skin. */
+  int64_t copies[SKIN_COPIES], copy_equations[SKIN_LAMBDA], copy_count, skin_multipliers, skin_count;
+  int64_t skin_rows[SKIN_PLAN], skin_columns[SKIN_PLAN];
+  int32_t skin_rows32[SKIN_PLAN], skin_columns32[SKIN_PLAN];
+  double skin_initial[SKIN_LAMBDA], skin_force[SKIN_X], skin_lines[SKIN_LAMBDA], skin_values[SKIN_PLAN];
+  double skin_limit, skin_turned[SKIN_LAMBDA], skin_committed[SKIN_LAMBDA];
+  stickslip_states skin_states;
+  int32_t copy_state[SKIN_COPIES], facet_side[SKIN_FACETS];
+  double copy_normal[SKIN_LAMBDA], copy_gap[SKIN_COPIES], facet_distance[SKIN_FACETS];
+  stickslip_equilibrium skin_equilibrium;
+  stickslip_skin_sides sides;
+  int64_t facet_piece[SKIN_FACETS], facet_partner[SKIN_FACETS], facet_body[SKIN_FACETS];
+  stickslip_skin_summary summary;
+  history skin_history;
 } every;
 
 static inline int32_t every_weights(every *c) { return call_weights(&c->e); }
@@ -488,10 +507,95 @@ static inline int32_t every_rigid_values(every *c) {
 }
 static inline int32_t every_rigid_destroy(every *c) { return stickslip_rigid_destroy(&c->rigid); }
 
+/* A skin likewise: the first one makes it, the last one ends it. */
+static inline int32_t every_skin_create(every *c) {
+  skin_scene *s = &c->skin;
+  return stickslip_skin_create(&s->surface, s->bodies, s->first_multiplier, &s->options, &s->skin);
+}
+static inline int32_t every_skin_copies(every *c) {
+  return stickslip_skin_copies(c->skin.skin, SKIN_COPIES, c->copies, c->copy_equations, &c->copy_count, &c->skin_multipliers);
+}
+static inline int32_t every_skin_set_pair(every *c) {
+  return stickslip_skin_set_pair(c->skin.skin, UPPER_BODY, LOWER_BODY, 0.25);
+}
+static inline int32_t every_skin_apart(every *c) {
+  return stickslip_skin_set_pair(c->skin.skin, UPPER_BODY, LOWER_BODY, STICKSLIP_SKIN_APART);
+}
+static inline int32_t every_skin_constraints(every *c) {
+  static double across[3];
+  if (across[0] == 0.0) {
+    across[0] = 1.0;
+    scene_frame(across);
+  }
+  const int64_t node = c->skin.options.index_base + 5;
+  return stickslip_skin_set_constraints(c->skin.skin, 1, &node, across);
+}
+static inline int32_t every_skin_initial(every *c) {
+  return stickslip_skin_initial_multipliers(c->skin.skin, c->skin_initial);
+}
+static inline int32_t every_skin_residual(every *c) {
+  return stickslip_skin_residual(c->skin.skin, c->skin.x, c->skin.lambda, c->skin_force, c->skin_lines);
+}
+static inline int32_t every_skin_plan(every *c) {
+  return stickslip_skin_plan(c->skin.skin, c->skin.x, STICKSLIP_PLAN_ACTIVE, &c->skin_count);
+}
+static inline int32_t every_skin_plan_skin(every *c) {
+  return stickslip_skin_plan(c->skin.skin, c->skin.x, STICKSLIP_PLAN_SKIN, &c->skin_count);
+}
+static inline int32_t every_skin_plan_coo(every *c) {
+  return stickslip_skin_plan_coo(c->skin.skin, SKIN_PLAN, c->skin_rows, c->skin_columns);
+}
+static inline int32_t every_skin_plan_coo32(every *c) {
+  return stickslip_skin_plan_coo32(c->skin.skin, SKIN_PLAN, c->skin_rows32, c->skin_columns32);
+}
+static inline int32_t every_skin_plan_values(every *c) {
+  return stickslip_skin_plan_values(c->skin.skin, c->skin.x, c->skin.lambda, SKIN_PLAN, c->skin_values);
+}
+static inline int32_t every_skin_states(every *c) {
+  return stickslip_skin_states(c->skin.skin, c->skin.x, c->skin.lambda, &c->skin_states);
+}
+static inline int32_t every_skin_equilibrium(every *c) {
+  return stickslip_skin_equilibrium(c->skin.skin, c->skin.x, c->skin.lambda, &c->skin_equilibrium);
+}
+static inline int32_t every_skin_step_limit(every *c) {
+  return stickslip_skin_step_limit(c->skin.skin, c->skin.x, c->skin_dx, 0.0, &c->skin_limit);
+}
+static inline int32_t every_skin_use_committed(every *c) {
+  return stickslip_skin_use_normals(c->skin.skin, STICKSLIP_NORMALS_COMMITTED);
+}
+static inline int32_t every_skin_use_current(every *c) {
+  return stickslip_skin_use_normals(c->skin.skin, STICKSLIP_NORMALS_CURRENT);
+}
+static inline int32_t every_skin_turn(every *c) {
+  memcpy(c->skin_turned, c->skin.lambda, sizeof c->skin_turned);
+  return stickslip_skin_turn_multipliers(c->skin.skin, c->skin.x, c->skin_turned);
+}
+static inline int32_t every_skin_commit(every *c) {
+  memcpy(c->skin_committed, c->skin.lambda, sizeof c->skin_committed);
+  return stickslip_skin_commit(c->skin.skin, c->skin.x, c->skin_committed);
+}
+static inline int32_t every_skin_rollback(every *c) { return stickslip_skin_rollback(c->skin.skin); }
+static inline int32_t every_skin_history_size(every *c) {
+  return stickslip_skin_history_size(c->skin.skin, &c->skin_history.n_integers, &c->skin_history.n_reals);
+}
+static inline int32_t every_skin_export(every *c) {
+  return stickslip_skin_history_export(c->skin.skin, COUNT(c->skin_history.integers), c->skin_history.integers,
+                                       COUNT(c->skin_history.reals), c->skin_history.reals);
+}
+static inline int32_t every_skin_import(every *c) {
+  return stickslip_skin_history_import(c->skin.skin, c->skin_exported.n_integers, c->skin_exported.integers,
+                                       c->skin_exported.n_reals, c->skin_exported.reals);
+}
+static inline int32_t every_skin_facets(every *c) { return stickslip_skin_facets(c->skin.skin, &c->sides); }
+static inline int32_t every_skin_report(every *c) { return stickslip_skin_report(c->skin.skin, &c->summary); }
+static inline int32_t every_skin_destroy(every *c) { return stickslip_skin_destroy(&c->skin.skin); }
+
 typedef struct {
   const char *name;
   int32_t (*call)(every *c);
 } entry_point;
+
+static inline int is_of_skin(const char *name) { return strncmp(name, "skin_", 5) == 0; }
 
 /* What asks for dual multipliers in the multiplier form. */
 static inline int is_condensed(const char *name) { return strncmp(name, "interface_condensed_", 20) == 0; }
@@ -605,6 +709,39 @@ static const entry_point every_call[] = {
     {"rigid_coo", every_rigid_coo},
     {"rigid_values", every_rigid_values},
     {"rigid_destroy", every_rigid_destroy},
+    {"skin_create", every_skin_create},
+    {"skin_copies", every_skin_copies},
+    {"skin_initial_multipliers", every_skin_initial},
+    {"skin_facets", every_skin_facets},
+    {"skin_set_pair", every_skin_set_pair},
+    {"skin_set_constraints", every_skin_constraints},
+    {"skin_step_limit", every_skin_step_limit},
+    {"skin_commit, first", every_skin_commit},
+    {"skin_residual", every_skin_residual},
+    {"skin_plan", every_skin_plan},
+    {"skin_plan_values", every_skin_plan_values},
+    {"skin_plan, skin", every_skin_plan_skin},
+    {"skin_plan_coo", every_skin_plan_coo},
+    {"skin_plan_coo32", every_skin_plan_coo32},
+    {"skin_plan_values, skin", every_skin_plan_values},
+    {"skin_states", every_skin_states},
+    {"skin_equilibrium", every_skin_equilibrium},
+    {"skin_use_normals", every_skin_use_committed},
+    {"skin_residual, normals of t_n", every_skin_residual},
+    {"skin_use_normals, as created", every_skin_use_current},
+    {"skin_turn_multipliers", every_skin_turn},
+    {"skin_commit", every_skin_commit},
+    {"skin_rollback", every_skin_rollback},
+    {"skin_commit, again", every_skin_commit},
+    {"skin_history_size", every_skin_history_size},
+    {"skin_history_export", every_skin_export},
+    {"skin_set_pair, apart", every_skin_apart},
+    {"skin_commit, apart", every_skin_commit},
+    {"skin_set_pair, together", every_skin_set_pair},
+    {"skin_history_import", every_skin_import},
+    {"skin_residual, imported", every_skin_residual},
+    {"skin_report", every_skin_report},
+    {"skin_destroy", every_skin_destroy},
 };
 
 /* A refusal of every function: no pointer at all. */
@@ -700,10 +837,33 @@ static inline int32_t every_refusal(int k) {
     case 86: return stickslip_interface_previous_tangent_coo(NULL, NULL, NULL, NULL, 0, NULL, NULL, NULL, NULL);
     case 87: return stickslip_interface_adjoint(NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL);
     case 88: return stickslip_interface_sensitivity(NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL);
+    case 89: return stickslip_skin_create(NULL, NULL, 0, NULL, NULL);
+    case 90: return stickslip_skin_destroy((stickslip_skin **)(uintptr_t)1);
+    case 91: return stickslip_skin_copies(NULL, 0, NULL, NULL, NULL, NULL);
+    case 92: return stickslip_skin_set_pair(NULL, 0, 0, 0.0);
+    case 93: return stickslip_skin_set_constraints(NULL, 0, NULL, NULL);
+    case 94: return stickslip_skin_initial_multipliers(NULL, NULL);
+    case 95: return stickslip_skin_residual(NULL, NULL, NULL, NULL, NULL);
+    case 96: return stickslip_skin_plan(NULL, NULL, 0, NULL);
+    case 97: return stickslip_skin_plan_coo(NULL, 0, NULL, NULL);
+    case 98: return stickslip_skin_plan_coo32(NULL, 0, NULL, NULL);
+    case 99: return stickslip_skin_plan_values(NULL, NULL, NULL, 0, NULL);
+    case 100: return stickslip_skin_states(NULL, NULL, NULL, NULL);
+    case 101: return stickslip_skin_equilibrium(NULL, NULL, NULL, NULL);
+    case 102: return stickslip_skin_step_limit(NULL, NULL, NULL, 0.0, NULL);
+    case 103: return stickslip_skin_use_normals(NULL, 0);
+    case 104: return stickslip_skin_turn_multipliers(NULL, NULL, NULL);
+    case 105: return stickslip_skin_commit(NULL, NULL, NULL);
+    case 106: return stickslip_skin_rollback(NULL);
+    case 107: return stickslip_skin_history_size(NULL, NULL, NULL);
+    case 108: return stickslip_skin_history_export(NULL, 0, NULL, 0, NULL);
+    case 109: return stickslip_skin_history_import(NULL, 0, NULL, 0, NULL);
+    case 110: return stickslip_skin_facets(NULL, NULL);
+    case 111: return stickslip_skin_report(NULL, NULL);
     default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
   }
 }
-enum { REFUSALS = 90 };
+enum { REFUSALS = 113 };
 
 /* Room and sizes for the structs that come out. */
 static inline void every_room(every *c) {
@@ -744,6 +904,12 @@ static inline void every_room(every *c) {
   c->diagnosis.text = c->diagnosis_text;
   c->diagnosis.text_capacity = sizeof c->diagnosis_text;
   memset(c->diagnosed_state, 0, sizeof c->diagnosed_state);
+  c->skin_states = (stickslip_states){.struct_size = sizeof c->skin_states, .state = c->copy_state, .normal = c->copy_normal,
+                                      .gap = c->copy_gap};
+  c->skin_equilibrium = c->equilibrium;
+  c->sides = (stickslip_skin_sides){.struct_size = sizeof c->sides, .side = c->facet_side, .piece = c->facet_piece,
+                                    .partner = c->facet_partner, .distance = c->facet_distance, .body = c->facet_body};
+  c->summary.struct_size = sizeof c->summary;
 }
 
 /* Room and sizes; outputs hold zeros. `s` is set up by the test (scene_init and options) and not created yet. */
@@ -770,7 +936,26 @@ static inline void every_init(every *c) {
   for (int k = 0; k < (int)(sizeof c->along / sizeof *along); ++k) along[k] = 0.25 * (k % 7) - 0.5;
   for (int k = 0; k < X1; ++k) c->a1[k] = c->a_rows[k] = 0.125 * (k % 11) - 0.5;
   for (int k = 0; k < X2; ++k) c->a2[k] = 0.5 * (k % 5) - 1.0;
+  skin_init_base(&c->skin, c->h.s.options.index_base);
+  skin_create(&c->skin);
+  memcpy(c->skin_committed, c->skin.lambda, sizeof c->skin_committed);
+  CHECK_OK(stickslip_skin_commit(c->skin.skin, c->skin.reference, c->skin_committed));
+  memset(c->skin_committed, 0, sizeof c->skin_committed);
+  skin_history(c->skin.skin, &c->skin_exported);
+  skin_destroy(&c->skin);
+  skin_move(c->skin_dx, 0.0, 0.0, -0.5);
   every_room(c);
+}
+
+/* Whether two contexts have got the same of a skin to the bit, but for what goes in and comes out. */
+static inline int every_skin_equal(const every *a, const every *b) {
+#define SAME(member) (memcmp(&a->member, &b->member, sizeof a->member) == 0)
+  return SAME(copies) && SAME(copy_equations) && SAME(copy_count) && SAME(skin_multipliers) && SAME(skin_count) &&
+         SAME(skin_rows) && SAME(skin_columns) && SAME(skin_rows32) && SAME(skin_columns32) && SAME(skin_initial) &&
+         SAME(skin_force) && SAME(skin_lines) && SAME(skin_limit) && SAME(copy_state) && SAME(copy_normal) && SAME(copy_gap) &&
+         SAME(skin_equilibrium) && SAME(facet_side) && SAME(facet_piece) && SAME(facet_partner) && SAME(facet_distance) &&
+         SAME(facet_body) && SAME(summary) && SAME(skin_history);
+#undef SAME
 }
 
 /* Whether two contexts have got the same outputs to the bit, times apart. */
@@ -798,7 +983,8 @@ static inline int every_equal(every *a, every *b) {
          SAME(rigid_count) && SAME(rigid_rows) && SAME(rigid_columns) && SAME(rigid_values) && SAME(law_states) &&
          SAME(law_count) && SAME(heat1) && SAME(heat2) && SAME(heat_flux) && SAME(heat_sides) && SAME(heat_slopes) &&
          SAME(heat_conductance) && SAME(heat_count) && SAME(heat_columns) && SAME(slopes) &&
-         SAME(change1) && SAME(change2) && SAME(change_rows);
+         SAME(change1) && SAME(change2) && SAME(change_rows) && SAME(skin_values) && SAME(skin_turned) && SAME(skin_committed) &&
+         every_skin_equal(a, b);
 #undef SAME
 }
 

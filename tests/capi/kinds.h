@@ -102,7 +102,9 @@ static inline int is_of_nodes(const entry_point *entry) {
   return is_condensed(entry->name);
 }
 
+/* A skin has options of its own: once is enough. */
 static inline int belongs(const kind *k, const entry_point *entry) {
+  if (is_of_skin(entry->name)) return k == kinds;
   if (k->points && is_of_nodes(entry)) return 0;
   if (entry->call == every_friction) return has_mu(k->friction);
   if (entry->call == every_normals) return k->normals != STICKSLIP_NORMALS_CURRENT;
@@ -112,6 +114,7 @@ static inline int belongs(const kind *k, const entry_point *entry) {
 
 static inline void end(every *c) {
   CHECK_OK(stickslip_interface_destroy(&c->other));
+  CHECK_OK(stickslip_skin_destroy(&c->skin.skin));
   scene_destroy(&c->h.s);
 }
 

@@ -231,6 +231,8 @@ fn layouts() -> Vec<Layout> {
             offsets1,
             offsets2
         }),
+        layout!(stickslip_skin_sides { struct_size, side, piece, partner, distance, body }),
+        layout!(stickslip_skin_summary { struct_size, bodies, pieces, pairs, contradictions, made, exchanged, missed }),
         layout!(stickslip_node {
             struct_size,
             slip,

@@ -68,7 +68,8 @@ static int outputs_equal(const every *a, const every *b) {
          SAME(suspect_nodes) && SAME(suspect_directions) && SAME(suspect_ratios) && SAME(suspect_causes) &&
          SAME(diagnosis_text) && SAME(step_limit) && SAME(equilibrium) && SAME(node_equilibrium) &&
          SAME(condensed_lambda) && SAME(condensed_rows) && SAME(condensed_force) && SAME(node_condensed) &&
-         SAME(e.normal_derivatives) && SAME(e.turn) && SAME(slopes) && SAME(change1) && SAME(change2) && SAME(change_rows);
+         SAME(e.normal_derivatives) && SAME(e.turn) && SAME(slopes) && SAME(change1) && SAME(change2) && SAME(change_rows) &&
+         SAME(skin.skin) && every_skin_equal(a, b);
 #undef LONG
 #undef SAME
 }
@@ -78,9 +79,10 @@ static long refusals;
 /* Lets the call fail at every request in turn. The last time, with no request left to fail, it has succeeded. */
 static void fail_everywhere(const kind *k, const entry_point *entry, every *c, int then_on) {
   static every before;
-  static history old, now;
+  static history old, now, old_skin, now_skin;
   before = *c;
   if (!k->unseen) history_take(c->h.s.interface, &old);
+  if (c->skin.skin) skin_history(c->skin.skin, &old_skin);
   for (long n = 1;; ++n) {
     const long held = blocks;
     arm(n, then_on);
@@ -98,7 +100,11 @@ static void fail_everywhere(const kind *k, const entry_point *entry, every *c, i
     if (entry->call == every_coo) memcpy(before.h.values, c->h.values, sizeof before.h.values);
     CHECK(outputs_equal(c, &before));
     /* What was taken for a new interface has been given back; others may keep what saves them work. */
-    if (entry->call == every_create) CHECK(blocks == held);
+    if (entry->call == every_create || entry->call == every_skin_create) CHECK(blocks == held);
+    if (c->skin.skin) {
+      skin_history(c->skin.skin, &now_skin);
+      CHECK(history_equal(&old_skin, &now_skin));
+    }
     if (!k->unseen) {
       history_take(c->h.s.interface, &now);
       CHECK(history_equal(&old, &now));

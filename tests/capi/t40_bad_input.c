@@ -4,6 +4,8 @@
 
 #include <stddef.h>
 
+static double skin_expected[SKIN_UNKNOWNS];
+
 static int number_of(const char *name) {
   for (int k = 0; k < COUNT(functions); ++k) {
     if (strcmp(functions[k].name, name) == 0) return k;
@@ -18,6 +20,10 @@ static void end_created(void) {
   FILL(nothing);
   if (b.out != nothing) CHECK_OK(stickslip_interface_destroy(&b.out));
   b.out = nothing;
+  stickslip_skin *no_skin;
+  FILL(no_skin);
+  if (b.skin_out != no_skin) CHECK_OK(stickslip_skin_destroy(&b.skin_out));
+  b.skin_out = no_skin;
 }
 
 static int32_t call(const char *name) {
@@ -53,6 +59,22 @@ static void set_up(const char *name, int32_t base) {
   b.imported = b.every.exported;
   b.n_integers = b.imported.n_integers;
   b.n_reals = b.imported.n_reals;
+  FILL(b.skin_out);
+  if (is_of_skin(name)) {
+    skin_scene *skin = &b.every.skin;
+    skin_create(skin);
+    if (strcmp(name, "skin_initial_multipliers") != 0) {
+      CHECK_OK(stickslip_skin_commit(skin->skin, skin->reference, skin->lambda));
+    }
+    skin_history(skin->skin, &b.skin_imported);
+    b.n_integers = b.skin_imported.n_integers;
+    b.n_reals = b.skin_imported.n_reals;
+    b.pairs = STICKSLIP_PLAN_SKIN;
+  }
+  b.first_multiplier = b.every.skin.first_multiplier;
+  b.body1 = LOWER_BODY;
+  b.body2 = UPPER_BODY;
+  b.skin_mu = 0.5;
   b.ld = 36;
   b.length = sizeof b.every.last_error;
   b.options_size = sizeof b.every.options;
@@ -98,9 +120,12 @@ static void set_up(const char *name, int32_t base) {
   FILL(b.out);
   for (int k = 0; k < functions[number].n; ++k) {
     const argument *a = functions[number].arguments + k;
-    functions[number].a[k] = strcmp(a->name, "interface") == 0 && strcmp(name, "interface_destroy") != 0
-                                 ? *(stickslip_interface **)a->good
-                                 : a->good;
+    functions[number].a[k] = a->good;
+    if (strcmp(a->name, "interface") == 0 && strcmp(name, "interface_destroy") != 0) {
+      functions[number].a[k] = *(stickslip_interface **)a->good;
+    } else if (strcmp(a->name, "skin") == 0 && strcmp(name, "skin_destroy") != 0) {
+      functions[number].a[k] = *(stickslip_skin **)a->good;
+    }
   }
   /* As much as is needed, where that can be asked. */
   b.capacity = strcmp(name, "interface_effects") == 0 ? COUNT(b.every.effects) : N1;
@@ -134,6 +159,10 @@ static void set_up(const char *name, int32_t base) {
     CHECK_OK(stickslip_rigid_create(1, &r->body, 0, 3, r->rows, r->columns, &b.every.rigid, &b.capacity));
     functions[number].a[0] = b.every.rigid;
   }
+  if (strcmp(name, "skin_copies") == 0) b.capacity = SKIN_COPIES;
+  if (strncmp(name, "skin_plan_", 10) == 0) {
+    CHECK_OK(stickslip_skin_plan(b.every.skin.skin, b.every.skin.x, b.pairs, &b.capacity));
+  }
   if (strncmp(name, "interface_plan_", 15) == 0) {
     int64_t rows;
     CHECK_OK(stickslip_interface_plan(s->interface, s->x1, s->x2, STICKSLIP_PLAN_ACTIVE, &rows, &b.capacity));
@@ -143,10 +172,11 @@ static void set_up(const char *name, int32_t base) {
   }
   memcpy(&before, &b, sizeof b);
   scene_residual(s, expected);
+  if (b.every.skin.skin) skin_residual(&b.every.skin, skin_expected);
 }
 
 static void compare(void) {
-  static double residual[UNKNOWNS], state[STATE_SIZE];
+  static double residual[UNKNOWNS], state[STATE_SIZE], skin_now[SKIN_UNKNOWNS];
   static history now;
   /* A state has gaps between its members, which hold nothing: of its bytes only what it is known by is compared. */
   memcpy(state, E.state, sizeof state);
@@ -159,12 +189,18 @@ static void compare(void) {
   CHECK(history_equal(&b.every.exported, &now));
   scene_residual(&S, residual);
   CHECK(memcmp(residual, expected, sizeof residual) == 0);
+  if (!b.every.skin.skin) return;
+  skin_history(b.every.skin.skin, &now);
+  CHECK(history_equal(&b.skin_imported, &now));
+  skin_residual(&b.every.skin, skin_now);
+  CHECK(memcmp(skin_now, skin_expected, sizeof skin_now) == 0);
 }
 
 static void tear_down(void) {
   end_created();
   CHECK_OK(stickslip_interface_destroy(&b.every.other));
   CHECK_OK(stickslip_rigid_destroy(&b.every.rigid));
+  CHECK_OK(stickslip_skin_destroy(&b.every.skin.skin));
   scene_destroy(&S);
 }
 
@@ -219,6 +255,20 @@ static void tell(void) {
   REALS("nodal", b.rigid.nodal), INTEGERS("body.node_equations", b.rigid.node_equations);
   INTEGERS("body.equations", b.rigid.equations), INTEGERS("rigid_rows", b.rigid.rows);
   INTEGERS("rigid_columns", b.rigid.columns), NUMBER(INT64, n_bodies), NUMBER(INT64, n_entries);
+  bad_struct("surface", "surface", &b.every.skin.surface);
+  bad_struct("states", "skin_states", &b.every.skin_states);
+  bad_struct("skin_sides", "sides", &b.every.sides);
+  bad_struct("skin_summary", "summary", &b.every.summary);
+  REALS("surface.coordinates", b.every.skin.reference), INTEGERS("surface.facet_offsets", b.every.skin.offsets);
+  INTEGERS("surface.facet_nodes", b.every.skin.nodes), INTEGERS("surface.equations", b.every.skin.equations);
+  INTEGERS("bodies", b.every.skin.bodies), NUMBER(INT64, first_multiplier), NUMBER(INT64, body1), NUMBER(INT64, body2);
+  REALS("x", b.every.skin.x), REALS("dx", b.every.skin_dx);
+  static const char *const of_point[] = {"skin_residual:lambda",  "skin_plan_values:lambda",      "skin_states:lambda",
+                                         "skin_equilibrium:lambda", "skin_turn_multipliers:lambda", "skin_commit:lambda"};
+  for (int k = 0; k < COUNT(of_point); ++k) REALS(of_point[k], b.every.skin.lambda);
+  bad_place("skin_set_pair:mu", REAL, &b.skin_mu, 0);
+  bad_place("skin_use_normals:normals", INT32, &b.which_normals, 0);
+  bad_place("skin_destroy:handle", INT64, &b.every.skin.skin, 0);
   REALS("pair.x1", E.x1), REALS("pair.x2", E.x2), REALS("pair.neighbour_normals", b.neighbours);
   REALS("facet.neighbour_normals", b.neighbours);
   bad_place("facet.n2", INT32, E.n2, COUNT(E.n2)), REALS("mass", E.mass), REALS("state", E.state);
@@ -241,6 +291,9 @@ static void tell(void) {
   INTEGERS("nonmortar_offsets", b.offsets1), INTEGERS("mortar_offsets", b.offsets2);
   bad_place("imported_integers", INT64, b.imported.integers, (int32_t)b.n_integers);
   bad_place("imported_reals", REAL, b.imported.reals, (int32_t)b.n_reals);
+  const history *of_skin = &b.every.skin_exported;
+  bad_place("skin_history_import:imported_integers", INT64, b.skin_imported.integers, (int32_t)of_skin->n_integers);
+  bad_place("skin_history_import:imported_reals", REAL, b.skin_imported.reals, (int32_t)of_skin->n_reals);
   bad_place("diagnosis.state", INT32, b.every.diagnosed_state, N1);
   bad_place("struct_size", INT64, &b.options_size, 0);
   bad_place("handle", INT64, &b.every.other, 0);

@@ -45,7 +45,7 @@ const ALLOWED: [(&str, &[&str]); 19] = [
             "threads",
         ],
     ),
-    ("skin", &["adjacency", "error", "geometry", "interface", "law", "line", "memory"]),
+    ("skin", &["adjacency", "error", "geometry", "interface", "law", "line", "memory", "mortar"]),
 ];
 
 fn sources(module: &str) -> Vec<PathBuf> {

@@ -52,8 +52,8 @@ impl Ahead {
         }
     }
 
-    /// Fetches some.
-    #[inline]
+    /// Fetches some. Like other steps between two blocks it is always inlined: the compiler is told to spare size (cmake/library.cmake).
+    #[inline(always)]
     pub fn fetch(&mut self, pieces: &[&mut [f64]]) {
         let Some((piece, start, end)) = self.rows[..self.len].last_mut() else { return };
         let to = (*end).min(*start + AT_ONCE);

@@ -98,7 +98,7 @@ pub struct Layout<'a> {
 
 impl Layout<'_> {
     /// Whether a node has rows.
-    #[inline]
+    #[inline(always)]
     pub fn has_rows(&self, node: usize) -> bool {
         self.numbering.has_equations(node) && self.nodes.has_rows(node)
     }

@@ -115,7 +115,7 @@ impl Scatter {
     }
 
     /// The place of one among all facets' mortar nodes.
-    #[inline]
+    #[inline(always)]
     pub fn place(&self, f: usize, node: usize) -> Option<usize> {
         self.mortar_nodes(f).iter().position(|n| *n as usize == node).map(|k| self.first_node[f] + k)
     }
@@ -126,15 +126,11 @@ impl Scatter {
         if !numbering.has_equations(node) || !nodes.has_rows(node) {
             return;
         }
-        let offset = |column: usize| match (numbering.rank[column], finder.has_met(column)) {
-            (NO_RANK, _) => SKIP,
-            (_, false) => LACKS,
-            (_, true) => at[column],
-        };
+        let found = Found { numbering, finder, at };
         // A force depends on those multipliers of its facets that act here.
         let multiplier = |b: usize| {
             let column = nodes.multiplier(b);
-            if nodes.has_rows(column) { offset(column) } else { SKIP }
+            if nodes.has_rows(column) { found.offset(column) } else { SKIP }
         };
         let neighbours = &finder.neighbours;
         if nodes.is_multiplier(node) || node < n1 {
@@ -147,16 +143,16 @@ impl Scatter {
                 let own = &mut self.own[f];
                 for (k, &b) in facet.as_slice().iter().enumerate() {
                     if is_multiplier {
-                        own.rows[row][k] = offset(b);
+                        own.rows[row][k] = found.offset(b);
                     } else {
-                        own.forces[row][k] = offset(b);
+                        own.forces[row][k] = found.offset(b);
                         own.multipliers[row][k] = multiplier(b);
                     }
                 }
                 for k in self.first_node[f]..self.first_node[f + 1] {
                     let to = &mut self.mortar[k];
                     let to = if is_multiplier { &mut to.row } else { &mut to.column };
-                    to[row] = offset(nodes.mortar(self.nodes[k] as usize));
+                    to[row] = found.offset(nodes.mortar(self.nodes[k] as usize));
                 }
             }
             return;
@@ -166,14 +162,14 @@ impl Scatter {
             let f = f as usize;
             let Some(place) = self.place(f, c) else { continue };
             for (k, &b) in setup.nonmortar.facets[f].as_slice().iter().enumerate() {
-                self.mortar[place].forces[k] = offset(b);
+                self.mortar[place].forces[k] = found.offset(b);
                 self.mortar[place].multipliers[k] = multiplier(b);
             }
             if let Some(first) = self.first_coupling.get(f) {
                 let m = self.first_node[f + 1] - self.first_node[f];
                 let row = first + (place - self.first_node[f]) * m;
                 for k in 0..m {
-                    self.couplings[row + k] = offset(nodes.mortar(self.nodes[self.first_node[f] + k] as usize));
+                    self.couplings[row + k] = found.offset(nodes.mortar(self.nodes[self.first_node[f] + k] as usize));
                 }
             }
         }
@@ -181,8 +177,28 @@ impl Scatter {
             let facet = &setup.mortar.facets[j as usize];
             let row = facet.as_slice().iter().position(|&d| d == c).unwrap_or(0);
             for (k, &d) in facet.as_slice().iter().enumerate() {
-                self.among[j as usize][row][k] = offset(nodes.mortar(d));
+                self.among[j as usize][row][k] = found.offset(nodes.mortar(d));
             }
+        }
+    }
+}
+
+/// What the rows of a node were found to have.
+struct Found<'a> {
+    numbering: &'a Numbering,
+    finder: &'a Finder<'a>,
+    /// The offset of each node met.
+    at: &'a [u16],
+}
+
+impl Found<'_> {
+    /// Where the block of a column begins.
+    #[inline(always)]
+    fn offset(&self, column: usize) -> u16 {
+        match (self.numbering.rank[column], self.finder.has_met(column)) {
+            (NO_RANK, _) => SKIP,
+            (_, false) => LACKS,
+            (_, true) => self.at[column],
         }
     }
 }

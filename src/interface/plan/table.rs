@@ -222,7 +222,7 @@ pub struct Target {
 
 impl Hand<'_, '_> {
     /// Where the rows of a node are. `None`: they are not this chunk's.
-    #[inline]
+    #[inline(always)]
     pub fn find(&self, node: usize) -> Option<Target> {
         let rows = self.of.rows[node];
         let (piece, start) = match self.parts {

@@ -82,8 +82,13 @@ fn turn_of_mortar(two: &Surface, x2_n: &[Vec3], x2: &[Vec3]) -> Result<(f64, usi
         return Ok(larger((0.0, 0), &from, &to, 0));
     }
     let normal = |f: usize, x: &[Vec3]| two.facet(f, x).area_vector().try_normalize(0.0);
-    let facets = (0..two.facets.len()).filter_map(|f| Some((f, normal(f, x2_n)?, normal(f, x2)?)));
-    Ok(facets.fold((0.0, 0), |most, (f, from, to)| larger(most, &from, &to, f)))
+    let mut most = (0.0, 0);
+    for f in 0..two.facets.len() {
+        if let (Some(from), Some(to)) = (normal(f, x2_n), normal(f, x2)) {
+            most = larger(most, &from, &to, f);
+        }
+    }
+    Ok(most)
 }
 
 /// Whether the sides lie along one axis farther apart than any penetration, at t_n and now and the same way round.
