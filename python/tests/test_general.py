@@ -101,9 +101,11 @@ def test_facets_in_contact_that_change_their_side():
             after[0].look()
 
     general = run(scene, look, mu=0.2)
-    others = Run(scene.solids, named.contact(scene.solids, after[0].groups(), mu=0.2), scene.prescribe).go(scene.times)
-    assert skin_of(general).report().exchanged == 8 and len(after[0].seen) > 4
+    facets = scene.solids.skin()
+    plate = np.flatnonzero((scene.solids.bodies() == 0) & (scene.solids.X[facets][:, :, 1] == 0.4).all(axis=1))
+    groups = [(own, plate) for own, _ in after[0].groups()]
+    others = Run(scene.solids, named.contact(scene.solids, groups, mu=0.2), scene.prescribe).go(scene.times)
+    assert skin_of(general).report().exchanged == 8 and len(after[0].seen) >= 4
     first = len(scene.times) - len(after[0].seen)
     apart = np.abs(general.displacements() - others.displacements()).max(axis=1) / np.abs(others.displacements()).max()
-    assert apart[:first].min() > EXCHANGED < SIDES and (apart[:first][-4:] < SIDES).all()
-    assert (apart[first:] < EXCHANGED).all()
+    assert (EXCHANGED < apart[:first]).all() and (apart[:first] < SIDES).all() and (apart[first:] < EXCHANGED).all()

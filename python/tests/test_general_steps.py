@@ -12,6 +12,8 @@ from solids import Run, Solids, block
 SAME_STATE = 1e-10
 # Forces of contact on both bodies, of sums of the same numbers.
 BALANCE = 1e-15
+# Of the largest displacement, blocks of cells of 0.2 with the other sides: the error of such meshes.
+OTHER_SIDES = 0.03
 
 
 def begun(scene, **options):
@@ -168,3 +170,27 @@ def test_what_does_not_go_together_is_refused():
     with pytest.raises(stickslip.errors.InvalidValue, match="the skin is closed"):
         skin.facets()
     assert "closed" in repr(skin)
+
+
+def test_the_other_sides_where_no_step_is_short_enough(monkeypatch):
+    scene = crowds.three_blocks(2)
+    done = begun(scene, mu=0.3)
+    done.step(0.25)
+    sides, contact, asked = skin_of(done).facets().side, done.contact, []
+    commit = contact.commit
+
+    def only_with_others(x):
+        asked.append(len(asked))
+        if np.array_equal(skin_of(done).facets().side, sides):
+            raise stickslip.StepRefused("not with these sides")
+        commit(x)
+
+    monkeypatch.setattr(contact, "commit", only_with_others)
+    step, = stickslip.steps(contact, scene.solids.residual, scene.solids.tangent, [0.5], done.x, begin=0.25, fixed=done.held(0.5)[0],
+                            prescribed=lambda time: done.held(time)[1])
+    one, two = (stickslip.constants[f"SKIN_{name}"] for name in ("NONMORTAR", "MORTAR"))
+    now = skin_of(done).facets().side
+    assert step.cuts == 6 and len(asked) == 8 and (now[sides == one] == two).all() and (now[sides == two] == one).all()
+    plain = begun(scene, mu=0.3).go([0.25, 0.5])
+    u = plain.displacements()[-1]
+    assert 0 < np.abs(step.x[: len(u)] - u).max() < OTHER_SIDES * np.abs(u).max()

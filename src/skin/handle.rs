@@ -8,7 +8,7 @@ use super::table::{Between, Table};
 use super::whole::{Given, Whole};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
-use crate::interface::{Friction, MortarSide, NO_EQUATION, Options, free_directions};
+use crate::interface::{Decision, Friction, MortarSide, NO_EQUATION, Options, free_directions};
 use crate::memory::{self, Store, Stored};
 
 /// What has happened to a skin since it was created.
@@ -82,6 +82,10 @@ impl Skin {
         if options.mortar_side != MortarSide::Deformable {
             let text = "options.mortar_side must be STICKSLIP_MORTAR_DEFORMABLE: which side of a skin is rigid follows from its equations";
             return Err(Error::new(Kind::InvalidValue, text));
+        }
+        if options.decision != Decision::Nodes {
+            let text = "options.method.decision must be STICKSLIP_DECISION_NODES: what points remember does not go over to interfaces that a commit makes anew";
+            return Err(Error::new(Kind::Unsupported, text));
         }
         options.validate()?;
         let whole = Whole::new(given)?;

@@ -172,6 +172,10 @@ class Pair:
         self.face.commit(*point)
         return point[-1]
 
+    def exchange(self, lam: Reals) -> bool:
+        """Its sides are named."""
+        return False
+
     def touching(self, states: States) -> list[tuple[Integers, Integers, bool]]:
         """The equations of both sides, and whether a node is in contact."""
         return [(self.equations1, self.equations2, states.count(State.GAP) < states.bearing.sum())]

@@ -69,6 +69,11 @@ class Whole:
         self.face.commit(x, lam)
         return lam
 
+    def exchange(self, lam: Reals) -> bool:
+        """The other sides; whether there are any."""
+        self.face.exchange(lam)
+        return self.face.report().pieces > 0
+
     def use_normals(self, normals: str) -> bool:
         """Whether normals follow the surface; then those of the step that follows are chosen."""
         try:

@@ -172,6 +172,10 @@ class Skin(Handle):
         """Undoes the last commit; the multipliers of then are the caller's."""
         self._call("skin_rollback")
 
+    def exchange(self, lam: Array) -> None:
+        """Exchanges the sides of all facets at t_n, for a step that fails however small it is. ``lam``: multipliers of t_n, in and out."""
+        self._call("skin_exchange", self._written(lam))
+
     def history(self) -> dict[str, Array]:
         """The committed history as arrays, to pickle."""
         integers, reals = ffi.new("int64_t *"), ffi.new("int64_t *")

@@ -47,7 +47,8 @@ def steps(contact: Contact, residual: Callable[[Reals, float], ArrayLike], tange
     """Solves step after step and gives each once it is committed: ``for step in stickslip.steps(...)``.
 
     A step is tried from an extrapolation of the last two; from where it begins; from there with a line search; in two phases, with the
-    normals of its start first; with steps that are cut where surfaces meet. Then it is cut into halves. Refusals, NaN and refused
+    normals of its start first; with steps that are cut where surfaces meet. Then it is cut into halves; and general contact takes the other
+    sides once, where that does not help. Refusals, NaN and refused
     commits are failed attempts. A host that raises :class:`stickslip.StepRefused` says so of its own.
 
     Parameters
@@ -90,7 +91,7 @@ class _Steps:
     def advance(self, x: Reals, begin: float, end: float, shortest: float, accepted: Callable[[Reals, float], None] | None,
                 progress: bool) -> Step:
         """From one time to another, in halves where it does not go at once."""
-        ends, iterations, cuts = [end], 0, 0
+        ends, iterations, cuts, exchanged = [end], 0, 0, False
         while ends:
             before = x.copy()
             try:
@@ -100,6 +101,9 @@ class _Steps:
             except Error as error:
                 x[:] = before
                 if not 0.5 * (ends[-1] - begin) >= shortest:
+                    if not exchanged and self.contact.exchange(x):  # whether it converges may depend on the sides
+                        ends, exchanged, self.rate = [end], True, None
+                        continue
                     raise StepRefused(f"time {begin:g}: no step is short enough. The last attempt: {error}") from error
                 ends.append(0.5 * (begin + ends[-1]))
                 cuts += 1
