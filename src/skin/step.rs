@@ -243,6 +243,9 @@ impl Skin {
     pub fn commit(&mut self, x: &[Vec3], lambda: &mut [Vec3]) -> Result<()> {
         self.check(x, lambda)?;
         let motion = self.motion_to(x);
+        if !motion.is_finite() {
+            return Err(Error::new(Kind::NotFinite, text!("x lies so far from t_n that the way overflows")));
+        }
         self.refuse_missed(x, motion)?;
         let mut brought = self.brought_by(x, lambda)?;
         let mut steps = memory::with_room(self.held.len())?;
