@@ -81,6 +81,9 @@ impl Skin {
     pub fn commit(&mut self, x: &[Vec3], lambda: &mut [Vec3]) -> Result<()> {
         self.check(x, lambda)?;
         let motion = self.motion_to(x);
+        if !motion.is_finite() {
+            return Err(Error::new(Kind::NotFinite, text!("x lies so far from t_n that the way overflows")));
+        }
         let near = self.look(x, motion)?;
         self.refuse_missed(x, (&near, motion))?;
         self.rules.options.search_distance = self.given;
