@@ -234,7 +234,9 @@ impl Scene {
                     assert!(before == self.history(), "a commit is undone");
                 }
             }
-            4 => drop(succeeded(unsafe { stickslip_skin_rollback(h) })),
+            4 => {
+                succeeded(unsafe { stickslip_skin_rollback(h) });
+            }
             5 => {
                 let (mut integers, reals) = self.history();
                 let mut reals: Vec<f64> = reals.into_iter().map(f64::from_bits).collect();
