@@ -11,10 +11,19 @@ use crate::geometry::Vec3;
 use crate::memory::{self, Store, Stored};
 
 /// What the step that follows has in place of a piece.
+#[expect(clippy::large_enum_variant, reason = "a skin has a few")]
 enum Next {
     /// This one of the present ones.
     Kept(usize),
     Made(Held),
+}
+
+/// The step that follows.
+struct Following {
+    start: Start,
+    next: Vec<Next>,
+    /// Multipliers that copies take over from the other side, in the order of the copies.
+    taken: Vec<(usize, Vec3)>,
 }
 
 /// A step that follows, and all that it takes to put it in place, so that nothing is refused then.
@@ -46,7 +55,7 @@ impl Skin {
         let (x, commits) = (memory::copied(&self.start.x)?, self.start.commits);
         let (near, brought) = (self.look(&x, motion)?, self.brought_from_start()?);
         let start = Start { x, commits, motion, sides: Sides::default(), near };
-        let (start, next, _) = self.follow(start, &self.start.sides.roles, &brought)?;
+        let Following { start, next, .. } = self.follow(start, &self.start.sides.roles, &brought)?;
         let change = self.change(start, next)?;
         self.replace(change)?;
         self.before = None;
@@ -72,6 +81,9 @@ impl Skin {
     pub fn commit(&mut self, x: &[Vec3], lambda: &mut [Vec3]) -> Result<()> {
         self.check(x, lambda)?;
         let motion = self.motion_to(x);
+        if !motion.is_finite() {
+            return Err(Error::new(Kind::NotFinite, text!("x lies so far from t_n that the way overflows")));
+        }
         let near = self.look(x, motion)?;
         self.refuse_missed(x, (&near, motion))?;
         self.rules.options.search_distance = self.given;
@@ -83,7 +95,7 @@ impl Skin {
         }
         let commits = self.start.commits.saturating_add(1);
         let start = Start { x: memory::copied(x)?, commits, motion, sides: Sides::default(), near };
-        let (start, next, taken) = self.follow(start, &self.start.sides.roles, &brought)?;
+        let Following { start, next, taken } = self.follow(start, &self.start.sides.roles, &brought)?;
         let change = self.change(start, next)?;
         let mut claimed = memory::filled(false, self.whole.copies())?;
         // From here on nothing is refused.
@@ -119,7 +131,7 @@ impl Skin {
         let Start { commits, motion, .. } = self.start;
         let (x, near) = (memory::copied(&self.start.x)?, memory::copied(&self.start.near)?);
         let start = Start { x, commits, motion, sides: Sides::default(), near };
-        let (mut start, next, taken) = self.follow(start, &before, &brought)?;
+        let Following { mut start, next, taken } = self.follow(start, &before, &brought)?;
         let exchanged = |(now, before): &(&Role, &Role)| **now != Role::None && now == before;
         start.sides.exchanged = start.sides.roles.iter().zip(&before).filter(exchanged).count();
         let (change, mut claimed) = (self.change(start, next)?, memory::filled(false, self.whole.copies())?);
@@ -198,14 +210,8 @@ impl Skin {
         Err(Error::new(Kind::ContactLost, text))
     }
 
-    /// What the step that follows has: where it begins, its sides too, its pieces, and the multipliers that copies take over from the
-    /// other side, in the order of the copies. `before`: the sides that facets have so far.
-    fn follow(
-        &self,
-        start: Start,
-        before: &[Role],
-        brought: &Brought,
-    ) -> Result<(Start, Vec<Next>, Vec<(usize, Vec3)>)> {
+    /// The step that follows, with its sides. `before`: the sides that facets have so far.
+    fn follow(&self, start: Start, before: &[Role], brought: &Brought) -> Result<Following> {
         let places = self.whole.places(&start.x)?;
         let sides = sides(&self.whole, &start.near, before)?;
         let wanted = pieces(&self.whole, &sides.roles, &start.near)?;
@@ -231,7 +237,7 @@ impl Skin {
             next.store(Next::Made(made))?;
         }
         let taken = memory::sorted(&taken, |p, q| p.0.cmp(&q.0))?;
-        Ok((Start { sides, ..start }, next, taken))
+        Ok(Following { start: Start { sides, ..start }, next, taken })
     }
 
     /// The step that follows, with friction and room for all that is put in place.

@@ -1,18 +1,19 @@
 """The figure of docs/exact.md: the wave's errors against facets, the stick radius against steps, the torques against the angle."""
 
-import numpy as np
 import matplotlib
 
 matplotlib.use("Agg")  # no display is needed
 
-import matplotlib.pyplot as plt
+import matplotlib.pyplot as plt  # noqa: E402
 
-import gears
-import waves
-from figures import BLUE, GREY, INK, RED, _save
+import gears  # noqa: E402
+import waves  # noqa: E402
+from figures import BLUE, GREY, INK, RED, _save  # noqa: E402
 
 GREEN, ORANGE = "#3a8f5c", "#d0862c"
 COLOURS = dict(zip((element.name for element in waves.ELEMENTS), (GREY, INK, RED, ORANGE, BLUE, GREEN)))
+TICKS = (*waves.FACETS, 40, 80)
+SHOWN = {("quad", 12, "dual"), ("quad", 48, "dual"), ("quad", 24, "points")}
 
 
 def draw(drawn, path):
@@ -24,6 +25,8 @@ def draw(drawn, path):
             axis.loglog(x, mean, "o-", color=COLOURS[element.name], markersize=4, linewidth=1, label=element.name)
             axis.fill_between(x, [100 * f.errors.min() for _, f in of], [100 * f.errors.max() for _, f in of], color=COLOURS[element.name], alpha=0.08)
         axis.set(title=f"Wave, {load} load", xlabel="facets over the half-width", ylabel="error of the pressure [%]")
+        axis.set_xticks(TICKS, [str(n) for n in TICKS])
+        axis.set_xticks([], minor=True)
         axis.grid(True, which="major", color="#eeeeee", zorder=0)
     axes[0].legend(frameon=False, fontsize=7)
     for (mu, steps), (radii, _) in drawn["spence"].items():
@@ -40,5 +43,3 @@ def draw(drawn, path):
     figure.tight_layout()
     return _save(figure, path)
 
-
-SHOWN = {("quad", 12, "dual"), ("quad", 48, "dual"), ("quad", 24, "points")}

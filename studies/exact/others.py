@@ -121,15 +121,16 @@ def rolling(driver):
 
 
 # --- gears ------------------------------------------------------------------------------------------------------------
-GEARS = (("quad", 12, "dual", {}), ("quad", 24, "dual", {}), ("quad", 48, "dual", {}), ("quad", 12, "points", {"decision": "points"}),
-         ("quad", 24, "points", {"decision": "points"}), ("quad8", 6, "corner, dual", {}), ("quad8", 12, "corner, dual", {}),
-         ("quad8", 6, "sub", {"multiplier_space": "sub"}), ("quad8", 12, "sub", {"multiplier_space": "sub"}))
+SUB, DECIDED = {"multiplier_space": "sub"}, {"decision": "points"}
+GEARS = (("quad", 12, "dual", {}), ("quad", 24, "dual", {}), ("quad", 48, "dual", {}), ("quad", 12, "points", DECIDED), ("quad", 24, "points", DECIDED),
+         ("quad", 24, "points, a fifth of the load", {**DECIDED, "back": gears.BACK / 5}), ("quad8", 6, "corner, dual", {}),
+         ("quad8", 12, "corner, dual", {}), ("quad8", 6, "sub", SUB), ("quad8", 12, "sub", SUB))
 ANGLES = 20
 
 
 def gear_runs(driver):
     for cell, flank, name, options in GEARS:
-        run = driver.run(gears.scene(driver.output, flank, ANGLES, cell, **options), label=f"gears_{cell}_{flank}_{name.replace(', ', '_')}")
+        run = driver.run(gears.scene(driver.output, flank, ANGLES, cell, **options), label=f"gears_{cell}_{flank}_{name.replace(', ', '_').replace(' ', '_')}")
         yield cell, flank, name, gears.torques(run), run.summary["seconds"]["processor"]
 
 

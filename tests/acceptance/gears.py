@@ -89,7 +89,7 @@ class Gear(PlaneMesh):
         return [r * np.cos(angle), r * np.sin(angle)]
 
 
-def scene(folder, flank, steps, cell="quad", **interface):
+def scene(folder, flank, steps, cell="quad", back=BACK, **interface):
     """`flank`: facets of the first gear's flanks; the second one has an eighth more. Over two pitches, in so many steps."""
     body = {"young": YOUNG, "poisson": POISSON, "material": "neo_hooke"}
     meshes = {}
@@ -100,7 +100,7 @@ def scene(folder, flank, steps, cell="quad", **interface):
             gear.points = [[distance - x, -y] for x, y in gear.points]
         meshes[name] = gear.write(folder / f"gear_{name}_{cell}_{flank}.msh").name
     turn = 2 * np.pi / TEETH["first"]  # on either side of the middle
-    back = BACK * MODULE / (MODULE * TEETH["second"] / 2)
+    angle = back / (TEETH["second"] / 2)
     hub = lambda name, centre: {"surface": f"{name}.ymin", "components": ["x", "y"], "origin": [centre, 0]}
     return write(
         {
@@ -111,13 +111,13 @@ def scene(folder, flank, steps, cell="quad", **interface):
             "supports": ["drive", "load"],
             "drive": {**hub("first", 0), "rotate": turn, "rotate_curve": [0, 0, 1, -1, 2, 1]},
             "load": {**hub("second", distance), "rotate": -turn * RATIO,
-                     "rotate_curve": [0, -back / (turn * RATIO), 1, -1 - back / (turn * RATIO), 2, 1 - back / (turn * RATIO)]},
+                     "rotate_curve": [0, -angle / (turn * RATIO), 1, -1 - angle / (turn * RATIO), 2, 1 - angle / (turn * RATIO)]},
             "interfaces": [NAME],
             NAME: {"nonmortar": "first.xmax", "mortar": "second.xmax", "search_distance": NEAR, **interface},
             "steps": {"stages": [1, 4, 2, steps]},
             "output": {"vtu": "none", "csv": "last", "quiet": True},
         },
-        folder / f"gears_{cell}_{flank}_{steps}.yaml",
+        folder / f"gears_{cell}_{flank}_{steps}{f'_{back:g}' if back != BACK else ''}.yaml",
     )
 
 

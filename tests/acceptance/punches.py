@@ -65,7 +65,8 @@ class Sliding:
         deep = graded(smallest, 0, FAR, GROWTH if not halvings else 1.3)
         stem = f"sliding_{self.mu:g}_{facets}_{halvings}_{cell}"
         g = self.exact.power
-        places, weights = roots_jacobi(SEEN, -0.5 - g, -0.5 + g)
+        with np.errstate(divide="ignore", invalid="ignore"):  # a recurrence of scipy's, which it puts right, as both powers add up to -1
+            places, weights = roots_jacobi(SEEN, -0.5 - g, -0.5 + g)
         forces = np.outer(weights * self.load * np.cos(np.pi * g) / np.pi, [-self.mu, -1])
         X = outer(along, deep)
         far = write_far(folder / f"{stem}.txt", X, fields.under_forces(X, places, forces, YOUNG, POISSON))

@@ -162,12 +162,20 @@ pub struct FacetFilter {
 
 impl FacetFilter {
     /// Whether a nearer mortar facet hides mortar facet j from non-mortar facet i: then they are no pair before the next commit.
+    #[inline]
     pub fn hides(&self, i: usize, j: usize) -> bool {
+        !self.hidden.stacked.is_empty() && self.is_hidden(i, j)
+    }
+
+    /// The same where there are layers.
+    #[cold]
+    #[inline(never)]
+    fn is_hidden(&self, i: usize, j: usize) -> bool {
         let far = |j: usize| {
             let (low, high) = self.heights(i, j);
             (low + high).abs()
         };
-        self.hidden.hides(i, j, |front| self.admits(i, front) && far(front) < far(j))
+        self.hidden.hides(i, j, &|other| self.admits(i, other) && far(other) < far(j))
     }
 
     /// Whether non-mortar facet i and mortar facet j can be a pair, where no other one lies between them.

@@ -16,12 +16,12 @@ pub struct Hidden {
 }
 
 impl Hidden {
-    /// Whether mortar facet j is hidden from non-mortar facet i; `is_nearer`: whether they could be a pair with this facet, and
+    /// Whether, where there are layers, mortar facet j is hidden from non-mortar facet i; `is_nearer`: whether they could be a
+    /// pair with this facet, and
     /// it is the nearer one.
-    pub fn hides(&self, i: usize, j: usize, is_nearer: impl Fn(usize) -> bool) -> bool {
-        let Some(others) = self.stacked.get(j) else { return false };
+    pub fn hides(&self, i: usize, j: usize, is_nearer: &dyn Fn(usize) -> bool) -> bool {
         let is_in = |pairs: &[(u32, u32)]| pairs.binary_search(&(i as u32, j as u32)).is_ok();
         let is_nearer = |other: &u32| *other != NO_FACET && is_nearer(*other as usize);
-        is_in(&self.pairs) || others.iter().any(is_nearer) && !is_in(&self.kept)
+        is_in(&self.pairs) || self.stacked[j].iter().any(is_nearer) && !is_in(&self.kept)
     }
 }

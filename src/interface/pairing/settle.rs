@@ -81,6 +81,7 @@ impl Pairing {
 }
 
 /// The filter of the configuration (x1, x2).
+#[inline(never)] // it is met several times
 pub fn filter(
     (one, two): (&Surface, &Surface),
     options: &Options,

@@ -14,6 +14,7 @@ use crate::mortar::{NonmortarFrame, Segment};
 
 /// All active pairs at x, with the filter of another or the same configuration, in the memory of `active`. What is there
 /// after a refusal means nothing.
+#[inline(never)] // it is met several times
 pub fn acting(
     surfaces: (&Surface, &Surface),
     options: &Options,

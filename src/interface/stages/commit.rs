@@ -144,6 +144,7 @@ pub fn with_the_same_weights(
 
 /// The filter of a history that is not of now, whose positions may be refused: with nothing hidden. `None` where the weights are
 /// frozen.
+#[inline(never)] // it is met several times
 pub fn filter_of(surfaces: (&Surface, &Surface), options: &Options, history: &History) -> Result<Option<Filter>> {
     let mut tree = KeptTree::default();
     let at = || settle::filter(surfaces, options, (&history.x1, &history.x2), &mut tree);

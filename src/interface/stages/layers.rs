@@ -30,6 +30,7 @@ const DIFFERENT: f64 = 1e-4;
 
 /// Settles which mortar facets are hidden in the step that follows, of the pairs at (x1, x2) with a filter that hides none, and
 /// leaves the others. What is there after a refusal means nothing.
+#[inline(never)] // it is met several times
 pub fn settle(
     surfaces: (&Surface, &Surface),
     options: &Options,
