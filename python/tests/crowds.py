@@ -203,7 +203,8 @@ def exchange():
     s = Solids(block((0, 0), (2, 0.4), (20, 3)), block((0.1, 0.4), (0.6, 0.7), (5, 3)), block((1.3, 0.4), (1.8, 0.7), (3, 3)))
     bottom, top = where(s, 0, lambda x: x[1] == 0), where(s, 1, lambda x: x[1] == 0.7)
     s.rigid = s.nodes[2]
-    return Scene(s, lambda t: [(s.rigid, 0.0), (bottom, (0.0, 0.004 * min(t, 1))), (top, (0.03 * max(t - 1, 0), -0.002 * min(t, 1)))], list(range(1, 22)))
+    return Scene(s, lambda t: [(s.rigid, 0.0), (bottom, (0.0, 0.004 * min(t, 1))), (top, (0.03 * max(t - 1, 0), -0.002 * min(t, 1)))],
+                 list(range(1, 22)))
 
 
 def force(done, chosen, body=0):
