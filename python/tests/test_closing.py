@@ -50,3 +50,14 @@ def test_a_block_falls_onto_a_table_and_rests_on_it(condensed):
 def test_a_block_that_is_drawn_away_is_told():
     with pytest.raises(stickslip.StepRefused, match="its load moves it away"):
         list(falling(upwards=True))
+
+
+def test_a_block_that_is_laid_down_by_its_top_from_rest():
+    """No force acts at all before what is prescribed moves, so that there is nothing to measure what is left by."""
+    X, cells, internal = block((0, 0, GAP), (1, 1, 1 + GAP), (3, 3, 2), YOUNG, 0.0)
+    K = internal(np.zeros(X.shape))[1]
+    table = stickslip.Surface([(-1, -1, 0), (2, -1, 0), (2, 2, 0), (-1, 2, 0)], [[0, 1, 2, 3]])
+    contact = stickslip.Contact(X).add(stickslip.skin(cells, X, lambda x: x[2] == GAP), table, mu=0.3, modulus=YOUNG)
+    x, top = contact.start(), contact.dofs[X[:, 2] == X[:, 2].max()]
+    stickslip.newton(contact, lambda u: K @ u, lambda u: K, x, fixed=top, values=np.tile([0, 0, -2 * GAP], len(top)), closing=True)
+    np.testing.assert_allclose(contact.states(x)[0].pressure, YOUNG * GAP, rtol=PATCH)

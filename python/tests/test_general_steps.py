@@ -153,7 +153,8 @@ def test_copies_are_where_faces_meet():
 def test_what_does_not_go_together_is_refused():
     X, cells = block((0, 0), (1, 1), (2, 2))
     facets = stickslip.skin(cells, X)
-    for how, words in (({"crease": 0.7}, "^crease: "), ({"bodies": [1, 2]}, "^bodies: "), ({"friction": "tied"}, "tie surfaces")):
+    for how, words in (({"crease": 0.7}, "^crease: "), ({"bodies": [1, 2]}, "^bodies: "), ({"friction": "tied"}, "tie surfaces"),
+                       ({"decision": "points"}, "DECISION_NODES")):
         with pytest.raises(stickslip.Error, match=words):
             stickslip.Contact(X).add(facets, modulus=1.0, **how)
     with pytest.raises(stickslip.errors.InvalidValue, match="^condensed: "):

@@ -64,7 +64,8 @@ class Closing:
         if not self.active:
             return A
         self.first = self.first or norm
-        shift = self.shift if self.loose(x) else max(_LOOSE * min(norm / self.first, 1.0), _HELD)
+        left = min(norm / self.first, 1.0) if self.first else 1.0  # nothing moves before the first step of what is prescribed
+        shift = self.shift if self.loose(x) else max(_LOOSE * left, _HELD)
         diagonal = np.zeros(A.shape[0])
         own = np.abs(A.diagonal()[: self.contact.n_host])
         diagonal[: self.contact.n_host] = shift * np.maximum(own, own.max() * self.contact._rigid.stiffness(self.contact.n_host, self.size))
