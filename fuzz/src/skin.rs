@@ -235,7 +235,16 @@ impl Scene {
                 }
             }
             4 => {
-                succeeded(unsafe { stickslip_skin_rollback(h) });
+                if bytes.choice(2) == 0 {
+                    succeeded(unsafe { stickslip_skin_rollback(h) });
+                } else {
+                    let mut taken = Watched::holding(&self.lambda);
+                    if succeeded(unsafe { stickslip_skin_exchange(h, taken.pointer()) }) {
+                        all_finite(taken.values());
+                    } else {
+                        assert_eq!(taken.values(), self.lambda);
+                    }
+                }
             }
             5 => {
                 let (mut integers, reals) = self.history();
