@@ -81,21 +81,42 @@ def strip():
     return Scene(s, lambda t: [(lower, 0.0), (upper, (-0.02 * max(t - 8, 0), -0.028 * min(t, 8)))], list(range(1, 21)))
 
 
-def ring(lines=24):
+def arc(angle):
+    """The upper half of a circle, or all of its right half, from its end at the top."""
+    return lambda s: np.column_stack([np.sin(np.pi - angle * (1 - s)), -np.cos(np.pi - angle * (1 - s))])
+
+
+def punch(sign):
+    """A thick round shell above or below the ring, which touches it at its top."""
+    def mapped(X):
+        angle, r = 1.4 * (X[:, 0] - 0.5), 0.18 + 0.42 * X[:, 1]
+        return np.column_stack([-sign * r * np.sin(angle), sign * (1.7 - r * np.cos(angle))])
+    return block((0, 0), (1, 1), (8, 2), mapped)
+
+
+def gripped(s, body):
+    """The inner edge of a punch."""
+    return where(s, body, lambda x: np.abs(np.hypot(x[0], np.abs(x[1]) - 1.7) - 0.18) < 1e-9)
+
+
+RING_TIMES = [*range(2, 31, 2), 30.5, 31, 31.5, 32]
+
+
+def ring(lines=24, thick=3, times=RING_TIMES):
     """Half a ring between two round punches; its inner wall closes. The cuts at x = 0 are planes of symmetry."""
-    arc = lambda s: np.column_stack([np.sin(np.pi * s), -np.cos(np.pi * s)])
-
-    def punch(sign):
-        def mapped(X):
-            angle, r = 1.4 * (X[:, 0] - 0.5), 0.18 + 0.42 * X[:, 1]
-            return np.column_stack([-sign * r * np.sin(angle), sign * (1.7 - r * np.cos(angle))])
-        return block((0, 0), (1, 1), (8, 2), mapped)
-
-    s = Solids(folded(arc, 0.2, (lines, 3)), punch(1), punch(-1))
+    s = Solids(folded(arc(np.pi), 0.2, (lines, thick)), punch(1), punch(-1))
     s.X[np.abs(s.X) < 1e-6] = 0.0
-    cut = where(s, 0, lambda x: x[0] == 0)
-    grips = [where(s, k, lambda x: np.abs(np.hypot(x[0], np.abs(x[1]) - 1.7) - 0.18) < 1e-9) for k in (1, 2)]
-    return Scene(s, lambda t: [(cut, (0.0, NAN)), (grips[0], (0.0, -0.03 * t)), (grips[1], (0.0, 0.03 * t))], [*range(2, 31, 2), 30.25], cut=cut)
+    cut, grips = where(s, 0, lambda x: x[0] == 0), [gripped(s, k) for k in (1, 2)]
+    return Scene(s, lambda t: [(cut, (0.0, NAN)), (grips[0], (0.0, -0.03 * t)), (grips[1], (0.0, 0.03 * t))], times, cut=cut)
+
+
+def quarter(lines=12, thick=3):
+    """Its upper half, and the nodes on the plane y = 0, which its inner wall comes to lie on."""
+    s = Solids(folded(arc(np.pi / 2), 0.2, (lines, thick)), punch(1))
+    s.X[np.abs(s.X) < 1e-6] = 0.0
+    cuts = [where(s, 0, lambda x: x[axis] == 0) for axis in (0, 1)]
+    grip = gripped(s, 1)
+    return Scene(s, lambda t: [(cuts[0], (0.0, NAN)), (cuts[1], (NAN, 0.0)), (grip, (0.0, -0.03 * t))], RING_TIMES, cut=np.concatenate(cuts)), cuts[1]
 
 
 def slit(X, cells, across, beyond, opening):
@@ -182,7 +203,8 @@ def exchange():
     s = Solids(block((0, 0), (2, 0.4), (20, 3)), block((0.1, 0.4), (0.6, 0.7), (5, 3)), block((1.3, 0.4), (1.8, 0.7), (3, 3)))
     bottom, top = where(s, 0, lambda x: x[1] == 0), where(s, 1, lambda x: x[1] == 0.7)
     s.rigid = s.nodes[2]
-    return Scene(s, lambda t: [(s.rigid, 0.0), (bottom, (0.0, 0.004 * min(t, 1))), (top, (0.03 * max(t - 1, 0), -0.002 * min(t, 1)))], list(range(1, 22)))
+    return Scene(s, lambda t: [(s.rigid, 0.0), (bottom, (0.0, 0.004 * min(t, 1))), (top, (0.03 * max(t - 1, 0), -0.002 * min(t, 1)))],
+                 list(range(1, 22)))
 
 
 def force(done, chosen, body=0):
