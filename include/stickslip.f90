@@ -1688,6 +1688,13 @@ module stickslip
       real(c_double), intent(inout) :: lambda(*)
     end function
 
+    ! Exchanges the sides of all facets at t_n, for a step that fails however small it is; lambda(3, copies): those of t_n.
+    integer(c_int32_t) function stickslip_skin_exchange(skin, lambda) bind(C)
+      import :: c_double, c_int32_t, stickslip_skin
+      type(stickslip_skin), value :: skin
+      real(c_double), intent(inout) :: lambda(*)
+    end function
+
     ! Undoes the last commit exactly. Make the plan again.
     integer(c_int32_t) function stickslip_skin_rollback(skin) bind(C)
       import :: c_int32_t, stickslip_skin

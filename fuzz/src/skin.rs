@@ -32,7 +32,7 @@ impl Scene {
         let dimension = if bytes.once_in(4) { 2 } else { 3 };
         let corners = 1_usize << dimension;
         let mut x: Vec<f64> =
-            (0..2 * corners).flat_map(|a| (0..dimension).map(move |i| (a % corners >> i & 1) as f64)).collect();
+            (0..2 * corners).flat_map(|a| (0..dimension).map(move |i| (((a % corners) >> i) & 1) as f64)).collect();
         let up = [bytes.number(0.3), bytes.number(if dimension == 2 { 0.99 } else { 0.2 }), bytes.number(0.99)];
         for (k, v) in x[corners * dimension..].iter_mut().enumerate() {
             *v += up[k % dimension];
@@ -235,7 +235,16 @@ impl Scene {
                 }
             }
             4 => {
-                succeeded(unsafe { stickslip_skin_rollback(h) });
+                if bytes.choice(2) == 0 {
+                    succeeded(unsafe { stickslip_skin_rollback(h) });
+                } else {
+                    let mut taken = Watched::holding(&self.lambda);
+                    if succeeded(unsafe { stickslip_skin_exchange(h, taken.pointer()) }) {
+                        all_finite(taken.values());
+                    } else {
+                        assert_eq!(taken.values(), self.lambda);
+                    }
+                }
             }
             5 => {
                 let (mut integers, reals) = self.history();

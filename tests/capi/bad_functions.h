@@ -263,6 +263,7 @@ FUNCTION(skin_step_limit, (a[0], a[1], a[2], b.penetration, a[3]), SKIN, {"x", b
 FUNCTION(skin_use_normals, (a[0], b.which_normals), SKIN)
 FUNCTION(skin_turn_multipliers, (a[0], a[1], a[2]), SKIN_POINT)
 FUNCTION(skin_commit, (a[0], a[1], a[2]), SKIN_POINT)
+FUNCTION(skin_exchange, (a[0], a[1]), SKIN, {"lambda", b.every.skin_committed, NEEDED})
 FUNCTION(skin_rollback, (a[0]), SKIN)
 FUNCTION(skin_history_size, (a[0], a[1], a[2]), SKIN, {"n_integers", &b.every.skin_history.n_integers, NEEDED},
          {"n_reals", &b.every.skin_history.n_reals, NEEDED})
@@ -305,8 +306,8 @@ static const struct {
     NAMED(skin_create), NAMED(skin_destroy), NAMED(skin_copies), NAMED(skin_set_pair), NAMED(skin_set_constraints),
     NAMED(skin_initial_multipliers), NAMED(skin_residual), NAMED(skin_plan), NAMED(skin_plan_coo), NAMED(skin_plan_coo32),
     NAMED(skin_plan_values), NAMED(skin_states), NAMED(skin_equilibrium), NAMED(skin_step_limit), NAMED(skin_use_normals),
-    NAMED(skin_turn_multipliers), NAMED(skin_commit), NAMED(skin_rollback), NAMED(skin_history_size), NAMED(skin_history_export),
-    NAMED(skin_history_import), NAMED(skin_facets), NAMED(skin_report),
+    NAMED(skin_turn_multipliers), NAMED(skin_commit), NAMED(skin_exchange), NAMED(skin_rollback), NAMED(skin_history_size),
+    NAMED(skin_history_export), NAMED(skin_history_import), NAMED(skin_facets), NAMED(skin_report),
     NAMED(interface_plan), NAMED(interface_plan_coo), NAMED(interface_plan_coo32), NAMED(interface_plan_csr),
     NAMED(interface_plan_csr32), NAMED(interface_plan_values), NAMED(interface_condensed_plan),
     NAMED(interface_condensed_values),

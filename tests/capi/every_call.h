@@ -574,6 +574,10 @@ static inline int32_t every_skin_commit(every *c) {
   memcpy(c->skin_committed, c->skin.lambda, sizeof c->skin_committed);
   return stickslip_skin_commit(c->skin.skin, c->skin.x, c->skin_committed);
 }
+static inline int32_t every_skin_exchange(every *c) {
+  memcpy(c->skin_committed, c->skin.lambda, sizeof c->skin_committed);
+  return stickslip_skin_exchange(c->skin.skin, c->skin_committed);
+}
 static inline int32_t every_skin_rollback(every *c) { return stickslip_skin_rollback(c->skin.skin); }
 static inline int32_t every_skin_history_size(every *c) {
   return stickslip_skin_history_size(c->skin.skin, &c->skin_history.n_integers, &c->skin_history.n_reals);
@@ -733,6 +737,8 @@ static const entry_point every_call[] = {
     {"skin_commit", every_skin_commit},
     {"skin_rollback", every_skin_rollback},
     {"skin_commit, again", every_skin_commit},
+    {"skin_exchange", every_skin_exchange},
+    {"skin_exchange, back", every_skin_exchange},
     {"skin_history_size", every_skin_history_size},
     {"skin_history_export", every_skin_export},
     {"skin_set_pair, apart", every_skin_apart},
@@ -854,16 +860,17 @@ static inline int32_t every_refusal(int k) {
     case 103: return stickslip_skin_use_normals(NULL, 0);
     case 104: return stickslip_skin_turn_multipliers(NULL, NULL, NULL);
     case 105: return stickslip_skin_commit(NULL, NULL, NULL);
-    case 106: return stickslip_skin_rollback(NULL);
-    case 107: return stickslip_skin_history_size(NULL, NULL, NULL);
-    case 108: return stickslip_skin_history_export(NULL, 0, NULL, 0, NULL);
-    case 109: return stickslip_skin_history_import(NULL, 0, NULL, 0, NULL);
-    case 110: return stickslip_skin_facets(NULL, NULL);
-    case 111: return stickslip_skin_report(NULL, NULL);
+    case 106: return stickslip_skin_exchange(NULL, NULL);
+    case 107: return stickslip_skin_rollback(NULL);
+    case 108: return stickslip_skin_history_size(NULL, NULL, NULL);
+    case 109: return stickslip_skin_history_export(NULL, 0, NULL, 0, NULL);
+    case 110: return stickslip_skin_history_import(NULL, 0, NULL, 0, NULL);
+    case 111: return stickslip_skin_facets(NULL, NULL);
+    case 112: return stickslip_skin_report(NULL, NULL);
     default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
   }
 }
-enum { REFUSALS = 113 };
+enum { REFUSALS = 114 };
 
 /* Room and sizes for the structs that come out. */
 static inline void every_room(every *c) {

@@ -211,6 +211,22 @@ static void check_steps(void) {
   CHECK(memcmp(after, again, sizeof after) != 0);
   skin_move(s.x, -2e-3, -1e-3, 1e-4);
 
+  /* The other sides, and back: the first ones. */
+  stickslip_skin_sides sides = {.struct_size = sizeof sides};
+  int32_t first_side[SKIN_FACETS], other_side[SKIN_FACETS];
+  sides.side = first_side;
+  CHECK_OK(stickslip_skin_facets(s.skin, &sides));
+  sides.side = other_side;
+  for (int back = 0; back < 2; ++back) {
+    CHECK_OK(stickslip_skin_exchange(s.skin, s.lambda));
+    CHECK_OK(stickslip_skin_facets(s.skin, &sides));
+    for (int f = 0; f < SKIN_FACETS; ++f) {
+      CHECK(other_side[f] == (back || first_side[f] == STICKSLIP_SKIN_NONE
+                                  ? first_side[f]
+                                  : STICKSLIP_SKIN_NONMORTAR + STICKSLIP_SKIN_MORTAR - first_side[f]));
+    }
+  }
+
   /* Into a fresh handle, and into the same. */
   for (int fresh = 0; fresh < 2; ++fresh) {
     if (fresh) {

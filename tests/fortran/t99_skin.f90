@@ -274,6 +274,8 @@ contains
     CHECK_OK(stickslip_skin_rollback(skin))
     call take(now)
     CHECK(history_equal(first, now))
+    CHECK_OK(stickslip_skin_exchange(skin, lambda))
+    CHECK_OK(stickslip_skin_exchange(skin, lambda))
     CHECK_OK(import_of(second))
     call take(now)
     CHECK(history_equal(second, now))
