@@ -26,9 +26,8 @@ pub struct stickslip_skin {
 /// Of `stickslip_skin_set_pair` in place of mu: the two bodies do not see each other.
 pub const STICKSLIP_SKIN_APART: f64 = -1.0;
 
-/// The handle behind a pointer.
+/// The handle behind a pointer. Who calls it asks for the feature first: behind a `Result` of this one all would be compiled.
 pub(super) fn skin_of<'a>(p: *mut stickslip_skin) -> Result<&'a mut stickslip_skin> {
-    features::needs!(SKIN);
     raw::check(p, "skin")?;
     refuse_within_a_law()?;
     // SAFETY: non-null and aligned; by the caller's contract it came from create, is not destroyed, and
@@ -170,6 +169,7 @@ pub unsafe extern "C" fn stickslip_skin_copies(
     multipliers: *mut i64,
 ) -> i32 {
     guard(|| {
+        features::needs!(SKIN);
         let h = skin_of(skin)?;
         raw::check(count, "count")?;
         raw::check(multipliers, "multipliers")?;
@@ -197,6 +197,7 @@ pub unsafe extern "C" fn stickslip_skin_copies(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_skin_set_pair(skin: *mut stickslip_skin, body1: i64, body2: i64, mu: f64) -> i32 {
     guard(|| {
+        features::needs!(SKIN);
         let h = skin_of(skin)?;
         let place = |body: i64, name: &str| {
             let found = h.inner.whole().body_keys.iter().position(|&key| key == body);
@@ -223,6 +224,7 @@ pub unsafe extern "C" fn stickslip_skin_set_constraints(
     directions: *const f64,
 ) -> i32 {
     guard(|| {
+        features::needs!(SKIN);
         let h = skin_of(skin)?;
         let (n, mut list) = (raw::count(n, 0, "n")?, Vec::new());
         if n > 0 {
@@ -252,6 +254,7 @@ pub unsafe extern "C" fn stickslip_skin_set_constraints(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_skin_initial_multipliers(skin: *mut stickslip_skin, lambda: *mut f64) -> i32 {
     guard(|| {
+        features::needs!(SKIN);
         let h = skin_of(skin)?;
         raw::check(lambda, "lambda")?;
         let values = h.inner.initial_multipliers()?;
@@ -275,6 +278,7 @@ pub unsafe extern "C" fn stickslip_skin_residual(
     rows: *mut f64,
 ) -> i32 {
     guard(|| {
+        features::needs!(SKIN);
         let h = skin_of(skin)?;
         let (x, lambda) = (h.positions(x)?, h.multipliers(lambda)?);
         raw::check(force, "force")?;
@@ -303,6 +307,7 @@ pub unsafe extern "C" fn stickslip_skin_plan(
     count: *mut i64,
 ) -> i32 {
     guard(|| {
+        features::needs!(SKIN);
         let h = skin_of(skin)?;
         let x = h.positions(x)?;
         raw::check(count, "count")?;
@@ -318,6 +323,7 @@ pub unsafe extern "C" fn stickslip_skin_plan(
 }
 
 fn coo<I: Index>(skin: *mut stickslip_skin, capacity: i64, rows: *mut I, columns: *mut I) -> Result<()> {
+    features::needs!(SKIN);
     let h = skin_of(skin)?;
     raw::check(rows, "rows")?;
     raw::check(columns, "columns")?;
@@ -378,6 +384,7 @@ pub unsafe extern "C" fn stickslip_skin_plan_values(
     values: *mut f64,
 ) -> i32 {
     guard(|| {
+        features::needs!(SKIN);
         let h = skin_of(skin)?;
         let (x, lambda) = (h.positions(x)?, h.multipliers(lambda)?);
         let n = h.inner.plan_len()?;
@@ -401,6 +408,7 @@ pub unsafe extern "C" fn stickslip_skin_states(
     out: *const stickslip_states,
 ) -> i32 {
     guard(|| {
+        features::needs!(SKIN);
         let h = skin_of(skin)?;
         let (x, lambda) = (h.positions(x)?, h.multipliers(lambda)?);
         let out = sized::read(out)?;
@@ -454,6 +462,7 @@ pub unsafe extern "C" fn stickslip_skin_equilibrium(
     out: *mut stickslip_equilibrium,
 ) -> i32 {
     guard(|| {
+        features::needs!(SKIN);
         let h = skin_of(skin)?;
         let (x, lambda) = (h.positions(x)?, h.multipliers(lambda)?);
         let (given, scales) = read_scales(out)?;
@@ -478,6 +487,7 @@ pub unsafe extern "C" fn stickslip_skin_step_limit(
     fraction: *mut f64,
 ) -> i32 {
     guard(|| {
+        features::needs!(SKIN);
         let h = skin_of(skin)?;
         let (x, dx) = (h.positions(x)?, h.vectors(dx, h.inner.whole().nodes, "dx")?);
         raw::check(fraction, "fraction")?;

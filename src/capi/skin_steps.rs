@@ -6,6 +6,7 @@ use super::raw;
 use super::sized::{self, Sized64};
 use super::skin::{skin_of, stickslip_skin};
 use crate::error::{Error, Kind};
+use crate::features;
 use crate::memory;
 
 /// Side of a skin's facet: it can touch nothing in this step.
@@ -25,6 +26,7 @@ pub const STICKSLIP_SKIN_MORTAR: i32 = 2;
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_skin_use_normals(skin: *mut stickslip_skin, normals: i32) -> i32 {
     guard(|| {
+        features::needs!(SKIN);
         let h = skin_of(skin)?;
         let Some(normals) = choose_normals(normals, "normals")? else {
             let text = "normals is STICKSLIP_NORMALS_AUTO; STICKSLIP_NORMALS_COMMITTED and _CURRENT are allowed";
@@ -47,6 +49,7 @@ pub unsafe extern "C" fn stickslip_skin_turn_multipliers(
     lambda: *mut f64,
 ) -> i32 {
     guard(|| {
+        features::needs!(SKIN);
         let h = skin_of(skin)?;
         let (x, mut turned) = (h.positions(x)?, h.multipliers(lambda)?);
         h.inner.turn_multipliers(&x, &mut turned)?;
@@ -68,6 +71,7 @@ pub unsafe extern "C" fn stickslip_skin_turn_multipliers(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_skin_commit(skin: *mut stickslip_skin, x: *const f64, lambda: *mut f64) -> i32 {
     guard(|| {
+        features::needs!(SKIN);
         let h = skin_of(skin)?;
         let (x, mut values) = (h.positions(x)?, h.multipliers(lambda)?);
         h.inner.commit(&x, &mut values)?;
@@ -98,7 +102,10 @@ pub unsafe extern "C" fn stickslip_skin_exchange(skin: *mut stickslip_skin, lamb
 /// Cost: O(facets). Allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_skin_rollback(skin: *mut stickslip_skin) -> i32 {
-    guard(|| skin_of(skin)?.inner.roll_back())
+    guard(|| {
+        features::needs!(SKIN);
+        skin_of(skin)?.inner.roll_back()
+    })
 }
 
 /// Lengths of the flat arrays that hold the history now; they change with each commit.
@@ -114,6 +121,7 @@ pub unsafe extern "C" fn stickslip_skin_history_size(
     n_reals: *mut i64,
 ) -> i32 {
     guard(|| {
+        features::needs!(SKIN);
         let h = skin_of(skin)?;
         raw::check(n_integers, "n_integers")?;
         raw::check(n_reals, "n_reals")?;
@@ -138,6 +146,7 @@ pub unsafe extern "C" fn stickslip_skin_history_export(
     reals: *mut f64,
 ) -> i32 {
     guard(|| {
+        features::needs!(SKIN);
         let h = skin_of(skin)?;
         raw::check(integers, "integers")?;
         raw::check(reals, "reals")?;
@@ -167,6 +176,7 @@ pub unsafe extern "C" fn stickslip_skin_history_import(
     reals: *const f64,
 ) -> i32 {
     guard(|| {
+        features::needs!(SKIN);
         let h = skin_of(skin)?;
         let integers = raw::slice(integers, raw::count(n_integers, 0, "n_integers")?, "integers")?;
         let reals = raw::numbers(reals, raw::count(n_reals, 0, "n_reals")?, "reals")?;
@@ -208,6 +218,7 @@ unsafe impl Sized64 for stickslip_skin_sides {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_skin_facets(skin: *mut stickslip_skin, out: *const stickslip_skin_sides) -> i32 {
     guard(|| {
+        features::needs!(SKIN);
         let h = skin_of(skin)?;
         let out = sized::read(out)?;
         raw::check_optional(out.side, "stickslip_skin_sides.side")?;
@@ -271,6 +282,7 @@ unsafe impl Sized64 for stickslip_skin_summary {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_skin_report(skin: *mut stickslip_skin, out: *mut stickslip_skin_summary) -> i32 {
     guard(|| {
+        features::needs!(SKIN);
         let h = skin_of(skin)?;
         sized::check_output(out)?;
         let counts = h.inner.counts();
