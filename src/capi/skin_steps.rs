@@ -257,7 +257,8 @@ pub struct stickslip_skin_summary {
     pub pieces: i64,
     /// Pairs of facets that may touch in this step.
     pub pairs: i64,
-    /// Pairs that could not be put on different sides, and are left out. None is known to occur.
+    /// Pairs that could not be put on different sides, in odd rings of five facets or more, and are left out: never the nearest of
+    /// the ring.
     pub contradictions: i64,
     /// Interfaces made since creation.
     pub made: i64,

@@ -205,7 +205,11 @@ impl Skin {
             missed.len()
         );
         self.rules.options.search_distance = self.given.map(|reach| reach.max(MOTIONS * motion));
-        self.begin_anew(motion)?;
+        let found = self.begin_anew(motion);
+        if found.is_err() {
+            self.rules.options.search_distance = self.given;
+        }
+        found?;
         self.counts.missed += 1;
         Err(Error::new(Kind::ContactLost, text))
     }
