@@ -1449,7 +1449,8 @@ typedef struct stickslip_skin_summary {
   int64_t pieces;
   /// Pairs of facets that may touch in this step.
   int64_t pairs;
-  /// Pairs that could not be put on different sides, and are left out. None is known to occur.
+  /// Pairs that could not be put on different sides, in odd rings of five facets or more, and are left out: never the nearest of
+  /// the ring.
   int64_t contradictions;
   /// Interfaces made since creation.
   int64_t made;
@@ -3018,8 +3019,10 @@ int32_t stickslip_interface_sensitivity(struct stickslip_interface *interface,
 /// each commit the library finds which facets may touch, gives them sides, and makes interfaces of them (docs/general_contact.md).
 ///
 /// surface: all outer facets of all bodies, seen from outside; equations as of an interface (-1 where prescribed);
-/// multiplier_equations and owned are NULL. Leave out cuts on planes of symmetry. bodies (n_facets): the number of each facet's
-/// body, whatever numbers; NULL: facets that hang together by nodes are one body, numbered from 0. first_multiplier: the equation
+/// multiplier_equations and owned are NULL. Leave out cuts on planes of symmetry, and faces whose normal is a direction of
+/// `stickslip_skin_set_constraints`. bodies (n_facets): the number of each facet's body, whatever numbers; NULL: facets that hang
+/// together by nodes are one body, numbered from 0. A body whose skin falls apart, by a cavity or a cut that is left out, needs its number:
+/// its walls are told by it. first_multiplier: the equation
 /// of the first multiplier, in the index base; all others follow it, so many as `stickslip_skin_copies` says.
 /// options: as of an interface; search_distance is how far the skin looks for partners (0: half of a facet, and twice the largest
 /// motion of the last step), mortar_side is DEFORMABLE; with FRICTION_NONE multipliers are vectors all the same. Not TIED.
