@@ -81,7 +81,7 @@
  * at the start of a step, interface_use_normals for a step in two phases. Before it: surface_split_creases or lines_split_creases where a non-mortar surface
  * has sharp edges, crosspoints_find where interfaces share nodes.
  *
- * A host that hands over the whole skin of its bodies, without pairs and sides (docs/general_contact.md):
+ * A host that hands over the whole skin of its bodies, without pairs and sides:
  *
  *     options_init, skin_create              once; skin_copies for the number of multipliers
  *     skin_initial_multipliers               once, before the first step
