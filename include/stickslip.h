@@ -3075,7 +3075,7 @@ int32_t stickslip_skin_set_pair(struct stickslip_skin *skin,
                                 double mu);
 
 /// Directions in which displacement is prescribed on both sides of a contact (plane strain, symmetry planes), as
-/// `stickslip_interface_set_constraints`: for every copy of the nodes. Replaces all earlier ones; n = 0 clears.
+/// `stickslip_interface_set_constraints`, for every copy of the nodes. Replaces all earlier ones; n = 0 clears.
 ///
 /// nodes (n): of the host, in the index base, a node up to twice; directions (3 n; of lines 2 n) [-].
 ///
@@ -3095,7 +3095,7 @@ int32_t stickslip_skin_set_constraints(struct stickslip_skin *skin,
 /// Cost: O(n); allocates.
 int32_t stickslip_skin_initial_multipliers(struct stickslip_skin *skin, double *lambda);
 
-/// Residual in internal-force sign, as `stickslip_interface_residual`: what to ADD to the host's internal forces.
+/// Residual in internal-force sign, as `stickslip_interface_residual`, which is what to ADD to the host's internal forces.
 ///
 /// x (3 nodes): positions [L]; lambda (3 copies) [F/L^2]; of lines 2 in place of 3. Outputs, overwritten: force (3 nodes) [F],
 /// rows (3 copies): the multipliers' rows; of a copy that touches nothing minus its area times lambda.
@@ -3188,7 +3188,7 @@ int32_t stickslip_skin_step_limit(struct stickslip_skin *skin,
                                   double penetration,
                                   double *fraction);
 
-/// Which normals evaluations of a skin use until the next commit, as `stickslip_interface_use_normals`: for the two phases of a
+/// Which normals evaluations of a skin use until the next commit, as `stickslip_interface_use_normals`, for the two phases of a
 /// step.
 ///
 /// normals: STICKSLIP_NORMALS_COMMITTED or _CURRENT.

@@ -212,7 +212,7 @@ pub unsafe extern "C" fn stickslip_skin_set_pair(skin: *mut stickslip_skin, body
 }
 
 /// Directions in which displacement is prescribed on both sides of a contact (plane strain, symmetry planes), as
-/// `stickslip_interface_set_constraints`: for every copy of the nodes. Replaces all earlier ones; n = 0 clears.
+/// `stickslip_interface_set_constraints`, for every copy of the nodes. Replaces all earlier ones; n = 0 clears.
 ///
 /// nodes (n): of the host, in the index base, a node up to twice; directions (3 n; of lines 2 n) [-].
 ///
@@ -264,7 +264,7 @@ pub unsafe extern "C" fn stickslip_skin_initial_multipliers(skin: *mut stickslip
     })
 }
 
-/// Residual in internal-force sign, as `stickslip_interface_residual`: what to ADD to the host's internal forces.
+/// Residual in internal-force sign, as `stickslip_interface_residual`, which is what to ADD to the host's internal forces.
 ///
 /// x (3 nodes): positions [L]; lambda (3 copies) [F/L^2]; of lines 2 in place of 3. Outputs, overwritten: force (3 nodes) [F],
 /// rows (3 copies): the multipliers' rows; of a copy that touches nothing minus its area times lambda.

@@ -16,7 +16,7 @@ pub const STICKSLIP_SKIN_NONMORTAR: i32 = 1;
 /// Side of a skin's facet: it is what they act on.
 pub const STICKSLIP_SKIN_MORTAR: i32 = 2;
 
-/// Which normals evaluations of a skin use until the next commit, as `stickslip_interface_use_normals`: for the two phases of a
+/// Which normals evaluations of a skin use until the next commit, as `stickslip_interface_use_normals`, for the two phases of a
 /// step.
 ///
 /// normals: STICKSLIP_NORMALS_COMMITTED or _CURRENT.
