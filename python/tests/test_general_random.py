@@ -1,6 +1,7 @@
 """Random round bodies pushed and rolled into each other: no body passes through another one, forces balance, and steps converge or are
-refused."""
+refused. By itself, with PYTHONPATH=python/src:python/examples: test_general_random.py SCENES STEPS tells it of many."""
 
+import sys
 import warnings
 
 import numpy as np
@@ -90,3 +91,28 @@ def test_no_body_passes_through_another_one(seed):
             assert np.abs(force.sum(axis=0)).max() <= BALANCE * max(np.abs(force).max(), 1.0)
             forces.append(np.abs(force).max())
     assert max(forces) > 1e-3 and step.states[0].count(stickslip.State.GAP) < step.states[0].bearing.sum()
+
+
+def told(seed, steps):
+    """How a scene ends, and how deep any node has been in another body."""
+    pile, worst = Pile(seed), 0.0
+    s = pile.solids
+    done = Run(s, s.contact(mu=pile.mu), pile.prescribe)
+    try:
+        for step in stickslip.steps(done.contact, s.residual, lambda u, time: s.tangent(u), np.arange(1, steps + 1) / steps, done.x,
+                                    fixed=done.held(0.0)[0], prescribed=lambda time: done.held(time)[1]):
+            worst = max(worst, deepest(s, step.x[: s.X.size].reshape(s.X.shape)))
+    except stickslip.StepRefused as refusal:
+        return worst, f"stopped: {refusal}"
+    return worst, ""
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("ignore", stickslip.StepWarning)
+    scenes = [told(seed, int(sys.argv[2])) for seed in range(int(sys.argv[1]))]
+    for seed, (worst, end) in enumerate(scenes):
+        if end:
+            print(f"seed {seed}: {end}")
+    depths = [worst for worst, _ in scenes]
+    print(f"{len(scenes)} scenes, {sum(end == '' for _, end in scenes)} to the end; deepest node {max(depths):.2f} of a facet, "
+          f"above {DEEPEST} in {sum(depth > DEEPEST for depth in depths)}")
