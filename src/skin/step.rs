@@ -4,7 +4,7 @@ use super::handle::{Before, Skin, Slot, Start, friction_of, set_friction};
 use super::missed::are_in_each_other;
 use super::near::{MOTIONS, Near};
 use super::piece::Held;
-use super::pieces::{Wanted, has_all, pieces};
+use super::pieces::{Piece, Wanted, has_all, pieces};
 use super::roles::{Role, Sides, sides};
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::Vec3;
@@ -221,7 +221,9 @@ impl Skin {
         let wanted = pieces(&self.whole, &sides.roles, &start.near)?;
         let (mut next, mut taken) = (memory::with_room(wanted.len())?, Vec::new());
         for Wanted { piece, partners } in wanted {
-            let is_same = |held: &Held| held.piece.own == piece.own && has_all(&held.piece.mortar, &partners);
+            let is_same = |held: &Held| {
+                held.piece.own == piece.own && has_all(&held.piece.mortar, &partners) && !self.holds_apart(&held.piece)
+            };
             if let Some(k) = self.held.iter().position(is_same) {
                 next.store(Next::Kept(k))?;
                 continue;
@@ -242,6 +244,13 @@ impl Skin {
         }
         let taken = memory::sorted(&taken, |p, q| p.0.cmp(&q.0))?;
         Ok(Following { start: Start { sides, ..start }, next, taken })
+    }
+
+    /// Whether a piece has facets of bodies that do not see each other any more.
+    fn holds_apart(&self, piece: &Piece) -> bool {
+        let has = |facets: &[usize], body: usize| facets.iter().any(|&f| self.whole.bodies[f] == body);
+        let mut apart = self.rules.table.apart();
+        apart.any(|[a, b]| has(&piece.own, a) && has(&piece.mortar, b) || has(&piece.own, b) && has(&piece.mortar, a))
     }
 
     /// The step that follows, with friction and room for all that is put in place.

@@ -50,6 +50,11 @@ impl Table {
         self.rows.iter().find(|row| row.0 == key).map(|row| row.1)
     }
 
+    /// The pairs that do not see each other.
+    pub fn apart(&self) -> impl Iterator<Item = [usize; 2]> {
+        self.rows.iter().filter(|row| row.1 == Between::Nothing).map(|row| row.0)
+    }
+
     /// Whether they do not see each other.
     pub fn excludes(&self, bodies: [usize; 2]) -> bool {
         self.between(bodies) == Some(Between::Nothing)

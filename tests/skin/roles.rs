@@ -76,3 +76,22 @@ fn a_pair_of_bodies_can_be_left_out() {
     assert_eq!(skin.pieces(), 2);
     assert!(skin.set_between([0, 3], Between::Nothing).is_err());
 }
+
+/// The same in the middle of a run, of a face that goes on touching a third body with the same facets.
+#[test]
+fn a_pair_of_bodies_can_be_left_out_in_a_run() {
+    let below = |y: f64| brick([4, 4, 1], [0.0, y, -0.2], [1.0, 0.4, 0.2], false);
+    let mesh = together(&[below(0.0), below(0.6), brick([2, 1, 1], [0.2, 0.25, -1e-3], [0.6, 0.5, 0.2], false)]);
+    let mut skin = skin(&mesh, options(0.3));
+    skin.commit(&mesh.x, &mut vec![Vec3::zeros(); skin.whole().copies()]).unwrap();
+    let pressed = |skin: &mut Skin| {
+        let lambda = vec![Vec3::new(0.0, 0.0, -1.0); skin.whole().copies()];
+        let forces = skin.residual(&mesh.x, &lambda).unwrap().forces;
+        let first = brick([4, 4, 1], [0.0; 3], [1.0; 3], false).x.len();
+        [0, first].map(|first_node| forces[first_node..first_node + first].iter().map(|f| f.norm()).sum::<f64>())
+    };
+    assert!(pressed(&mut skin).iter().all(|force| *force > 0.05));
+    skin.set_between([1, 2], Between::Nothing).unwrap();
+    let [other, left_out] = pressed(&mut skin);
+    assert!(other > 0.05 && left_out == 0.0, "{other} {left_out}");
+}
