@@ -17,17 +17,6 @@ const ALL: f64 = 1e-5;
 /// What a pad moves in a step.
 const STEP: Vec3 = Vec3::new(0.45, 0.0, 0.0);
 
-/// Several meshes as one surface, without common nodes.
-fn together(parts: &[Mesh]) -> Mesh {
-    let mut all = Mesh { x: Vec::new(), facets: Vec::new() };
-    for part in parts {
-        let first = all.x.len() as i64;
-        all.facets.extend(part.facets.iter().map(|f| f.iter().map(|k| k + first).collect()));
-        all.x.extend(&part.x);
-    }
-    all
-}
-
 fn shifted(x: &[Vec3], by: Vec3) -> Vec<Vec3> {
     x.iter().map(|x| x + by).collect()
 }

@@ -21,17 +21,6 @@ fn plate(n: usize, corner: [f64; 2], size: f64, z: f64, cells: Cells) -> Mesh {
     grid(n, n, corner, [corner[0] + size, corner[1] + size], z, true, cells)
 }
 
-/// Several meshes as one surface, without common nodes.
-fn together(parts: &[Mesh]) -> Mesh {
-    let mut all = Mesh { x: Vec::new(), facets: Vec::new() };
-    for part in parts {
-        let first = all.x.len() as i64;
-        all.facets.extend(part.facets.iter().map(|f| f.iter().map(|k| k + first).collect()));
-        all.x.extend(&part.x);
-    }
-    all
-}
-
 fn create(one: &Mesh, two: &Mesh, options: Options) -> Result<Interface> {
     let (n1, n2) = (one.x.len(), two.x.len());
     let nonmortar = Surface::new("nonmortar", one.x.clone(), &one.facets, numbered(0, n1))?;

@@ -1,6 +1,6 @@
 //! Skins to test with: bricks of quadrilaterals or triangles, and their outlines as lines of a plane model.
 
-use crate::support::mesh::Mesh;
+pub use crate::support::mesh::{Mesh, together};
 use std::collections::HashMap;
 use stickslip::geometry::Vec3;
 use stickslip::interface::{Options, Stiffness};
@@ -51,17 +51,6 @@ pub fn outline(corners: &[[f64; 2]], lines: usize) -> Mesh {
         Vec3::new(a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t, 0.0)
     };
     Mesh { x: (0..n).map(point).collect(), facets: (0..n as i64).map(|k| vec![k, (k + 1) % n as i64]).collect() }
-}
-
-/// Several bodies as one skin.
-pub fn together(bodies: &[Mesh]) -> Mesh {
-    let mut all = Mesh { x: Vec::new(), facets: Vec::new() };
-    for body in bodies {
-        let first = all.x.len() as i64;
-        all.facets.extend(body.facets.iter().map(|f| f.iter().map(|k| k + first).collect()));
-        all.x.extend(&body.x);
-    }
-    all
 }
 
 pub fn options(mu: f64) -> Options {

@@ -1,7 +1,7 @@
 //! Evaluations of a skin: those of named pairs, and derivatives that are exact.
 
 use crate::bodies::*;
-use crate::support::mesh::{Mesh, Random, numbered};
+use crate::support::mesh::{Random, numbered};
 use stickslip::geometry::Vec3;
 use stickslip::interface::{Interface, NO_EQUATION, Surface};
 use stickslip::skin::Skin;

@@ -1,7 +1,6 @@
 //! Steps of a skin: what is kept and what is made anew at a commit, missed contact, rollback, restart.
 
 use crate::bodies::*;
-use crate::support::mesh::Mesh;
 use stickslip::error::Kind;
 use stickslip::geometry::Vec3;
 use stickslip::skin::{Role, Skin};

@@ -66,6 +66,17 @@ pub fn grid(n: usize, m: usize, a: [f64; 2], b: [f64; 2], z: f64, up: bool, cell
     Mesh { x, facets }
 }
 
+/// Several meshes as one surface, without common nodes.
+pub fn together(parts: &[Mesh]) -> Mesh {
+    let mut all = Mesh { x: Vec::new(), facets: Vec::new() };
+    for part in parts {
+        let first = all.x.len() as i64;
+        all.facets.extend(part.facets.iter().map(|f| f.iter().map(|k| k + first).collect()));
+        all.x.extend(&part.x);
+    }
+    all
+}
+
 /// A ball of radius 1 at the origin, all of its surface: a cube's faces of n x n quads blown up.
 pub fn ball(n: usize) -> Mesh {
     let mut mesh = Mesh { x: Vec::new(), facets: Vec::new() };
