@@ -350,6 +350,7 @@ impl<const N: usize> Contact<N> {
     /// one was created with. No commit can then be undone.
     pub fn set_committed(&mut self, x1: &[Vec3], x2: &[Vec3], slip: &[Vec3], commits: i64) -> Result<()> {
         self.given().check_positions(x1, x2)?;
+        self.setup.refuse(&[(Feature::NodeHistory, true), (Feature::Friction, N == 3)])?;
         check_length("slip", slip.len(), self.setup.nonmortar.len())?;
         check_finite("slip", slip)?;
         if commits < 0 {

@@ -116,6 +116,7 @@ rows! {
     NotBuilt [Offsets KeptOverlaps] "what they overlap by at the last commit would count as closed, and one that grows would press nothing" [KeptOverlaps];
     NotBuilt [Points Elsewhere] "tractions of a facet need the gaps of all of its nodes" [Points];
     NotBuilt [Points Shared] "tractions of a facet need the gaps of all of its nodes" [Points];
+    NotBuilt [NodeHistory Points Friction] "what points remember is not in it" [NodeHistory];
     // What is asked.
     Meaningless [Condensed StandardBasis] "their forces couple neighbours" [StandardBasis];
     Meaningless [Condensed Points] "a facet's mass matrix couples its multipliers" [Condensed Points];
