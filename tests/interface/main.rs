@@ -27,6 +27,7 @@ mod identities;
 mod lag;
 mod large_sliding;
 mod laws;
+mod layer;
 mod lines;
 mod normals;
 mod offsets;
