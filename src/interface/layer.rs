@@ -4,7 +4,6 @@ use super::compose::Feature;
 use super::contact::Contact;
 use crate::error::{Error, Kind, Result};
 use crate::law::{Layer, LayerState};
-use crate::memory::{self, Store};
 
 impl<const N: usize> Contact<N> {
     /// How far what lies between the surfaces reaches where this is remembered of the nodes: across gaps, and into each other.
@@ -41,13 +40,9 @@ impl<const N: usize> Contact<N> {
         }
         let kind = |layer: &Option<Layer>| layer.as_ref().map(|layer| (layer.bond.is_some(), layer.wear.is_some()));
         let renews = kind(&layer) != kind(&self.setup.layer);
-        let (n, [own, of_layer]) = (self.setup.nonmortar.len(), self.setup.states());
-        let mut states = memory::copied(&self.step.history.states[..n * own])?;
-        if renews {
-            states.store_all((0..n * layer.as_ref().map_or(0, Layer::states)).map(|_| 0.0))?;
-        } else {
-            states.store_all(self.step.history.states[n * own..n * (own + of_layer)].iter().copied())?;
-        }
+        let new = [self.setup.states()[0], layer.as_ref().map_or(0, Layer::states)];
+        let known = Some(&self.step.history.states[..]);
+        let states = self.setup.states_of([known, if renews { None } else { known }], new)?;
         let before = std::mem::replace(&mut self.setup.layer, layer);
         let old_states = std::mem::replace(&mut self.step.history.states, states);
         let old_reach = self.setup.nonmortar.layer;

@@ -5,7 +5,6 @@ use super::contact::Contact;
 use super::data::options::Friction;
 use crate::error::{Error, Kind, Result};
 use crate::law::Own;
-use crate::memory::{self, Store};
 
 impl Contact<3> {
     /// The law in place of Coulomb's, from the next evaluation on; `None`: Coulomb's. What another law has remembered is
@@ -24,11 +23,8 @@ impl Contact<3> {
         self.setup.refuse(&[(Feature::OwnLaw, own.is_some()), (Feature::Orthotropic, is_orthotropic)])?;
         let kind = |own: &Option<Own>| own.map(|own| (own.number(), own.states()));
         if kind(&own) != kind(&self.setup.own) {
-            let n = self.setup.nonmortar.len() * own.map_or(0, |own| own.states());
-            let [before, _] = self.setup.states();
-            let mut states = memory::filled(0.0, n)?;
-            states.store_all(self.step.history.states[self.setup.nonmortar.len() * before..].iter().copied())?;
-            self.step.history.states = states;
+            let new = [own.map_or(0, |own| own.states()), self.setup.states()[1]];
+            self.step.history.states = self.setup.states_of([None, Some(&self.step.history.states)], new)?;
             self.rollback = None;
         }
         self.setup.own = own;
@@ -40,7 +36,7 @@ impl Contact<3> {
 }
 
 impl<const N: usize> Contact<N> {
-    /// What the law remembers of each node at t_n, and then what a layer between the surfaces does; empty where nothing is remembered.
+    /// What is remembered of each node at t_n, by the law, then by what lies between the surfaces; empty where nothing is.
     pub fn law_states(&self) -> &[f64] {
         if self.remembers() { &self.step.history.states } else { &[] }
     }

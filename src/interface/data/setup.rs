@@ -14,7 +14,7 @@ use super::what;
 use crate::error::{Error, Kind, Result};
 use crate::interface::compose::{self, Feature, Features};
 use crate::law::{Layer, Own};
-use crate::memory;
+use crate::memory::{self, Store};
 use crate::mortar::MultiplierSpace;
 use std::ops::Range;
 
@@ -159,11 +159,33 @@ impl<const N: usize> Setup<N> {
         [self.own.map_or(0, |own| own.states()), self.layer.as_ref().map_or(0, Layer::states)]
     }
 
-    /// Where those of what lies between the surfaces stand of node A: after all of the law's.
+    /// Where those of the law stand of node A.
+    pub fn law_states(&self, a: usize) -> Range<usize> {
+        let [own, layer] = self.states();
+        let first = (own + layer) * a;
+        first..first + own
+    }
+
+    /// Where those of what lies between the surfaces stand: after them.
     pub fn layer_states(&self, a: usize) -> Range<usize> {
         let [own, layer] = self.states();
-        let first = own * self.nonmortar.len() + layer * a;
+        let first = (own + layer) * a + own;
         first..first + layer
+    }
+
+    /// What nodes remember that remember so many numbers of a law, and of what lies between the surfaces: of either what `known` has
+    /// with these numbers, or zeros.
+    pub fn states_of(&self, known: [Option<&[f64]>; 2], new: [usize; 2]) -> Result<Vec<f64>> {
+        let mut states = memory::with_room(self.nonmortar.len() * (new[0] + new[1]))?;
+        for a in 0..self.nonmortar.len() {
+            for (k, (known, of)) in known.iter().zip([self.law_states(a), self.layer_states(a)]).enumerate() {
+                match known {
+                    Some(known) => states.store_all(known[of].iter().copied())?,
+                    None => states.store_all((0..new[k]).map(|_| 0.0))?,
+                }
+            }
+        }
+        Ok(states)
     }
 
     /// Whether a node has a multiplier at all.

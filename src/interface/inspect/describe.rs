@@ -45,6 +45,18 @@ pub fn effects<const N: usize>(setup: &Setup<N>) -> Result<Text> {
         text.append(format_args!(" Normals: {}.", normals_words(setup)))?;
     }
     text.append(format_args!("{}", weak_sentence(setup)?))?;
+    if let Some(layer) = &setup.layer {
+        let parts = [
+            (layer.overclosure.is_some(), " yields by a table"),
+            (layer.wear.is_some(), " wears"),
+            (layer.bond.is_some(), " is bonded"),
+        ];
+        text.append(format_args!(" What lies between the surfaces (asked for):"))?;
+        for (_, what) in parts.iter().filter(|(is_there, _)| *is_there) {
+            text.append(format_args!("{what},"))?;
+        }
+        text.append(format_args!(" {} numbers remembered a node.", layer.states()))?;
+    }
     Ok(text)
 }
 

@@ -89,7 +89,7 @@ impl OwnAnswers {
     /// Asks about node A at its sums, and puts the answer into it.
     fn ask<const N: usize>(&mut self, given: Given<N>, a: usize, node: &mut Node<N>, sums: &NodeSums) -> Result<()> {
         let Some(own) = &given.setup.own else { return Ok(()) };
-        let of = own.states() * a..own.states() * (a + 1);
+        let of = given.setup.law_states(a);
         node.special = special((own, given), a, (node, sums), At::Trial, &mut self.states[of])?;
         self.specials[a] = node.special;
         Ok(())
@@ -99,8 +99,8 @@ impl OwnAnswers {
     fn settle<const N: usize>(&mut self, given: Given<N>, a: usize, response: &NodeResponse<N>) {
         let Some(own) = &given.setup.own else { return };
         if response.state == State::Gap || (own.ages_by_slip() && response.state != State::Slip) {
-            let (from, to) = (own.states() * a, own.states() * (a + 1));
-            self.states[from..to].copy_from_slice(&given.history().states[from..to]);
+            let of = given.setup.law_states(a);
+            self.states[of.clone()].copy_from_slice(&given.history().states[of]);
         }
     }
 
@@ -163,7 +163,7 @@ pub fn special<const N: usize>(
         slip_before: history.slip.get(a).copied().unwrap_or(Vec3::zeros()),
         direction: trial.direction,
         mu: node.mu,
-        states: &history.states[own.states() * a..own.states() * (a + 1)],
+        states: &history.states[given.setup.law_states(a)],
     };
     let answer = own.answer(&question, states)?;
     Ok(Special::Told(Told { threshold: answer.threshold, slope: answer.slope * area }))
