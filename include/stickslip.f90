@@ -225,6 +225,7 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_LAW_COHESION = 1
   integer(c_int32_t), parameter :: STICKSLIP_LAW_WEAKENING = 2
   integer(c_int32_t), parameter :: STICKSLIP_LAW_ORTHOTROPIC = 3
+  integer(c_int32_t), parameter :: STICKSLIP_LAW_RATE = 4
   integer(c_int32_t), parameter :: STICKSLIP_LAW_MAX_STATES = 1024
 
   ! Columns of the heat's tangent: of temperatures alone, or of displacements and multipliers, too. Derivatives per side of
@@ -254,7 +255,7 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_equilibrium_size = 216
   integer(c_int64_t), parameter :: stickslip_rigid_body_size = 56
   integer(c_int64_t), parameter :: stickslip_rigid_motion_size = 136
-  integer(c_int64_t), parameter :: stickslip_law_size = 72
+  integer(c_int64_t), parameter :: stickslip_law_size = 88
   integer(c_int64_t), parameter :: stickslip_law_point_size = 104
   integer(c_int64_t), parameter :: stickslip_law_answer_size = 48
   integer(c_int64_t), parameter :: stickslip_layer_size = 72
@@ -570,6 +571,8 @@ module stickslip
     real(c_double) :: critical_slip = 0            ! WEAKENING: > 0 [L]
     real(c_double) :: mu_across = 0                ! ORTHOTROPIC: the coefficient across the direction, > 0
     real(c_double) :: direction(3) = 0             ! ORTHOTROPIC: along which mu counts, any length but 0
+    real(c_double) :: critical_rate = 0            ! RATE: the velocity over which 1/e is left, > 0 [L/T]
+    real(c_double) :: time = 0                     ! RATE: how long the step takes, > 0 [T]
   end type
 
   ! What a law of the host's is asked about a node.

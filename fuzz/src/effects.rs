@@ -62,7 +62,7 @@ fn law(bytes: &mut Bytes) -> stickslip_law {
     // SAFETY: numbers alone.
     let mut law: stickslip_law = unsafe { std::mem::zeroed() };
     law.struct_size = size_of::<stickslip_law>() as u64;
-    law.kind = bytes.choice(4);
+    law.kind = bytes.choice(5);
     let own = |kind: i32, usual: f64| if law.kind == kind { usual } else { 0.0 };
     let usual = [
         own(STICKSLIP_LAW_COHESION, 0.1),
@@ -75,6 +75,8 @@ fn law(bytes: &mut Bytes) -> stickslip_law {
     law.mu_after = bytes.number(usual[1]);
     law.critical_slip = bytes.number(usual[2]);
     law.mu_across = bytes.number(usual[3]);
+    law.critical_rate = bytes.number(if law.kind == STICKSLIP_LAW_RATE { 0.1 } else { 0.0 });
+    law.time = bytes.number(if law.kind == STICKSLIP_LAW_RATE { 0.1 } else { 0.0 });
     law.direction = [bytes.number(usual[4]), bytes.number(0.0), bytes.number(0.0)];
     law
 }

@@ -21,6 +21,7 @@ mod overclosure;
 mod own;
 mod projection;
 mod question;
+mod rate;
 mod slip;
 mod special;
 mod stateless;

@@ -67,7 +67,7 @@ static const struct {
     I64(rigid_motion, struct_size), ARRAY(rigid_motion, displacement, 3), ARRAY(rigid_motion, rotation, 3),
     ARRAY(rigid_motion, turned, 9), I32(rigid_motion, arms), I32(rigid_motion, reserved),
     I64(law, struct_size), I32(law, kind), I32(law, reserved), ONE(law, cohesion), ONE(law, mu_after), ONE(law, critical_slip),
-    ONE(law, mu_across), ARRAY(law, direction, 3),
+    ONE(law, mu_across), ARRAY(law, direction, 3), ONE(law, critical_rate), ONE(law, time),
     I64(layer, struct_size), I64(layer, n_overclosure), NEED(layer, overclosure), NEED(layer, pressure), ONE(layer, wear),
     ONE(layer, bond_stiffness), ONE(layer, bond_strength), ONE(layer, bond_toughness), ONE(layer, bond_shear),
     I64(heat, struct_size), ONE(heat, contact), ONE(heat, pressure), ONE(heat, exponent), ONE(heat, constant), ONE(heat, gas),

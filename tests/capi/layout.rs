@@ -197,7 +197,18 @@ fn layouts() -> Vec<Layout> {
             apart_scale,
             apart_node
         }),
-        layout!(stickslip_law { struct_size, kind, reserved, cohesion, mu_after, critical_slip, mu_across, direction }),
+        layout!(stickslip_law {
+            struct_size,
+            kind,
+            reserved,
+            cohesion,
+            mu_after,
+            critical_slip,
+            mu_across,
+            direction,
+            critical_rate,
+            time
+        }),
         layout!(stickslip_law_point { struct_size, node, normal, slip, slip_before, direction, mu }),
         layout!(stickslip_law_answer { struct_size, threshold, dthreshold_dnormal, dthreshold_dslip }),
         layout!(stickslip_layer {

@@ -31,7 +31,7 @@ fn overclosure() -> Option<Overclosure> {
     Some(table(&[(-0.02, 0.0), (0.02, 0.25), (0.06, 1.1)]))
 }
 
-fn worn() -> Layer {
+pub fn worn() -> Layer {
     Layer { wear: Some(0.1), ..Layer::default() }
 }
 
@@ -151,21 +151,21 @@ fn one_multiplier_a_node_has_the_overclosure_alone() {
 }
 
 /// A non-mortar face of nodes on springs over a flat, wide mortar face at rest.
-struct Springs {
-    contact: Interface,
-    x2: Vec<Vec3>,
+pub struct Springs {
+    pub contact: Interface,
+    pub x2: Vec<Vec3>,
     /// Where the springs are held, and how stiff they are an area.
-    held: Vec<Vec3>,
-    stiffness: Vec3,
-    x1: Vec<Vec3>,
-    lambda: Vec<Vec3>,
+    pub held: Vec<Vec3>,
+    pub stiffness: Vec3,
+    pub x1: Vec<Vec3>,
+    pub lambda: Vec<Vec3>,
 }
 
 /// Of lengths and tractions near 1.
 const CONVERGED: f64 = 1e-12;
 
 impl Springs {
-    fn new(x1: &Mesh, stiffness: Vec3, options: Options, layer: Layer) -> Springs {
+    pub fn new(x1: &Mesh, stiffness: Vec3, options: Options, layer: Layer) -> Springs {
         let x2 = grid(1, 1, [-9.0, -9.0], [9.0, 9.0], 0.0, true, Cells::Quads);
         let mut contact = interface(x1, &x2, options);
         contact.set_layer(Some(layer)).unwrap();
@@ -174,7 +174,7 @@ impl Springs {
     }
 
     /// Newton's method; every spring acts on the whole area of its node. Gives the steps.
-    fn solve(&mut self) -> usize {
+    pub fn solve(&mut self) -> usize {
         let n1 = self.x1.len();
         let (n2, areas) = (self.x2.len(), self.contact.history().areas.clone());
         let place = |k: i64| {
@@ -213,7 +213,7 @@ impl Springs {
         panic!("not converged");
     }
 
-    fn commit(&mut self) {
+    pub fn commit(&mut self) {
         self.contact.commit(&self.x1, &self.x2, &self.lambda, None).unwrap();
     }
 
@@ -223,11 +223,11 @@ impl Springs {
     }
 }
 
-fn face(z: f64) -> Mesh {
+pub fn face(z: f64) -> Mesh {
     grid(2, 2, [0.0, 0.0], [1.0, 1.0], z, false, Cells::Quads)
 }
 
-fn with(basis: MultiplierBasis, mu: f64) -> Options {
+pub fn with(basis: MultiplierBasis, mu: f64) -> Options {
     Options { basis, mu, weak_coverage: NO_WEAK_COVERAGE, ..Options::paper(stickslip::interface::Stiffness::Augmentation(15.0)) }
 }
 
@@ -354,7 +354,7 @@ fn a_cylinder_is_worn_flat() {
     let steps = 8;
     for step in 1..=steps {
         let slip = slide / f64::from(steps);
-        let mut try_at = |s: &mut Springs, depth: f64| {
+        let try_at = |s: &mut Springs, depth: f64| {
             s.held.iter_mut().zip(&mesh.x).for_each(|(held, x)| {
                 *held = Vec3::new(x.x, x.y + slip * f64::from(step), x.z - depth);
             });
@@ -439,7 +439,7 @@ fn a_bond_that_is_parted_is_not_there() {
         for (z, shear) in [(-0.01, 0.1), (-0.01, 3.0), (0.02, 0.1)] {
             let x1: Vec<_> = s.x1.iter().map(|x| x + Vec3::new(0.02, 0.01, z)).collect();
             let lambda: Vec<_> = x1.iter().map(|x| Vec3::new(shear, 0.0, -1.0 - x.x)).collect();
-            let mut of = |contact: &mut Interface| {
+            let of = |contact: &mut Interface| {
                 let r = contact.residual(&x1, &s.x2, &lambda, None).unwrap();
                 let mut entries = Vec::new();
                 let mut sink = |i: i64, j: i64, v: f64| entries.push((i, j, v));

@@ -43,6 +43,7 @@ mod point_friction;
 mod point_memory;
 mod points;
 mod quadratic;
+mod rates;
 mod ratios;
 mod reduction;
 mod report;

@@ -45,9 +45,10 @@ class Laws:
     _law_error: Exception | None = None
 
     def set_law(self, kind: str = "coulomb", **numbers: float | Sequence[float]) -> None:
-        """A law of the library: "coulomb", "cohesion", "weakening" or "orthotropic", with its numbers.
+        """A law of the library: "coulomb", "cohesion", "weakening", "orthotropic" or "rate", with its numbers.
 
         cohesion: ``cohesion`` [F/L^2]. weakening: ``mu_after``, ``critical_slip`` [L]. orthotropic: ``mu_across``, ``direction``, (3,).
+        rate: ``mu_after``, ``critical_rate`` [L/T], and ``time`` [T], what the step takes: set it again where that changes.
         The coefficient of the interface, ``mu``, is the one to begin with, or the one along the direction.
         """
         law = ffi.new("struct stickslip_law *", {"struct_size": ffi.sizeof("struct stickslip_law")})

@@ -60,7 +60,7 @@ impl Effects<3> {
         let law = match own.filter(|_| features::LAWS.built) {
             Some(Own::Orthotropic(_)) if !smooth => LawFunctions::ORTHOTROPIC,
             None | Some(Own::Orthotropic(_)) if smooth => LawFunctions::<3>::FRICTIONLESS,
-            Some(Own::Cohesion { .. } | Own::Weakening { .. } | Own::Host(_)) => LawFunctions::TOLD,
+            Some(Own::Cohesion { .. } | Own::Weakening { .. } | Own::Rate { .. } | Own::Host(_)) => LawFunctions::TOLD,
             None | Some(Own::Orthotropic(_)) => row.functions,
         };
         Effects { law, opposite: opposite(options, mortar) }

@@ -103,6 +103,9 @@ fn own_law<const N: usize>(setup: &Setup<N>) -> Result<Text> {
         Some(Own::Weakening { after, slip }) => {
             say!("mu {mu}, which falls to {after} over a slip of {slip} (asked for)")
         }
+        Some(Own::Rate { after, rate, time }) => {
+            say!("mu {mu}, which falls to {after} over a rate of slip of {rate}, in a step of {time} (asked for)")
+        }
         Some(Own::Orthotropic(ellipse)) => say!("orthotropic, mu {mu} along, {} across (asked for)", ellipse.across),
         Some(Own::Host(host)) => say!("a law of the host's, {} numbers remembered a node (asked for)", host.states),
         None => Ok(Text::EMPTY),

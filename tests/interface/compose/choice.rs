@@ -12,7 +12,7 @@ pub const DIMENSIONS: [(&str, &[&str]); 23] = [
     ("form", &["multiplier", "augmented"]),
     ("weights", &["current", "committed", "reference", "persistent"]),
     ("slip", &["objective", "increment", "paper"]),
-    ("law", &["coulomb", "none", "mu0", "tresca", "tied", "rough", "own", "cohesion", "weakening", "orthotropic"]),
+    ("law", &["coulomb", "none", "mu0", "tresca", "tied", "rough", "own", "cohesion", "weakening", "orthotropic", "rate"]),
     ("layer", &["no", "overclosure", "wear", "bond", "all"]),
     ("mortar", &["deformable", "rigid", "plane", "sphere", "cylinder", "mplane", "msphere", "mcylinder"]),
     ("system", &["multipliers", "condensed", "inplace"]),
@@ -126,7 +126,7 @@ impl Choice {
 
     /// Laws in place of Coulomb's.
     pub fn has_own_law(&self) -> bool {
-        matches!(self.of("law"), "own" | "cohesion" | "weakening" | "orthotropic")
+        matches!(self.of("law"), "own" | "cohesion" | "weakening" | "orthotropic" | "rate")
     }
 
     /// Whether weights are those of now.

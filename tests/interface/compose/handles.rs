@@ -50,6 +50,7 @@ fn own_law(choice: &Choice) -> Option<Own> {
         "own" => Some(Own::Host(Host { ask: own_threshold, words: [1, 2], states: 1, base: 0 })),
         "cohesion" => Some(Own::Cohesion { cohesion: 0.5 }),
         "weakening" => Some(Own::Weakening { after: 0.1, slip: 0.01 }),
+        "rate" => Some(Own::Rate { after: 0.1, rate: 0.05, time: 0.2 }),
         "orthotropic" => Some(Own::Orthotropic(Ellipse { direction: Vec3::new(1.0, 0.3, 0.0), across: 0.15 })),
         _ => None,
     }
