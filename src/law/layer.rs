@@ -209,10 +209,12 @@ fn in_surface<const N: usize>(node: &Node<N>, v: Vec3) -> (Vec3, Mat3) {
     (unit * size, (Mat3::identity() - unit * unit.transpose()) * turned * (size / left))
 }
 
-/// How depth, opening and traction change: by the multiplier, by g of now, by g of t_n's weights, by the covered area.
-struct Slopes<const N: usize> {
-    depth: (SVector<f64, N>, Vec3, Vec3),
-    traction: (SMatrix<f64, 3, N>, Mat3, Mat3, Vec3),
+/// How R numbers of a layer change: by the multiplier, by g of now, by g at t_n's weights, by the covered area.
+struct Slopes<const R: usize, const N: usize> {
+    lambda: SMatrix<f64, R, N>,
+    now: SMatrix<f64, R, 3>,
+    previous: SMatrix<f64, R, 3>,
+    area: SVector<f64, R>,
 }
 
 impl LayerAnswer {
@@ -226,26 +228,25 @@ impl LayerAnswer {
         }
     }
 
-    fn slopes<const N: usize>(&self, node: &Node<N>) -> Slopes<N> {
-        let (nu, (now, _)) = (node.normal, node.slip.coefficients());
-        let surface = if node.covered_before {
-            node.free * (Mat3::identity() - nu * nu.transpose())
-        } else {
-            Mat3::zeros()
-        };
+    /// Of d.
+    fn depth_slopes<const N: usize>(&self, node: &Node<N>) -> Slopes<1, N> {
+        let (now, _) = node.slip.coefficients();
+        let previous = (in_plane(node).transpose() * self.by_slip).transpose();
         // d lambda_N / d lambda; nu lies in the free directions.
-        let along = SVector::<f64, N>::from_fn(|i, _| if N == 1 { 1.0 } else { nu[i] });
-        let by_previous = surface.transpose() * self.by_slip;
-        let depth = (along * -self.by_pressure, by_previous * -now, by_previous);
-        let (a, of_slip) = (self.by_opening, self.traction_by_slip * surface);
-        let m = self.coverage;
-        let traction = (
-            a * depth.0.transpose(),
-            a * (nu / m + depth.1).transpose() - of_slip * now,
-            a * depth.2.transpose() + of_slip,
-            a * (-nu.dot(&node.gap_now) / (m * m)),
-        );
-        Slopes { depth, traction }
+        let along = SMatrix::from_fn(|_, i| if N == 1 { 1.0 } else { node.normal[i] });
+        Slopes { lambda: along * -self.by_pressure, now: previous * -now, previous, area: SVector::zeros() }
+    }
+
+    /// Of T, through those of d.
+    fn traction_slopes<const N: usize>(&self, node: &Node<N>, depth: &Slopes<1, N>) -> Slopes<3, N> {
+        let (nu, m, (now, _)) = (node.normal, self.coverage, node.slip.coefficients());
+        let (a, of_slip) = (self.by_opening, self.traction_by_slip * in_plane(node));
+        Slopes {
+            lambda: a * depth.lambda,
+            now: a * (nu.transpose() / m + depth.now) - of_slip * now,
+            previous: a * depth.previous + of_slip,
+            area: a * (-nu.dot(&node.gap_now) / (m * m)),
+        }
     }
 
     /// The law's answer about the node as it sees it, turned back.
@@ -254,12 +255,13 @@ impl LayerAnswer {
             return r;
         }
         let (nu, m) = (node.normal, self.coverage);
-        let Slopes { depth, traction } = self.slopes(node);
-        let (by_depth, through) = (r.drow_dnow * nu, through::<N>(&r.drow_dlambda));
-        let drow_dlambda = r.drow_dlambda + by_depth * (m * depth.0).transpose() - through * traction.0;
-        let drow_dnow = r.drow_dnow + by_depth * (m * depth.1).transpose() - through * traction.1;
-        let drow_dprevious = r.drow_dprevious + by_depth * (m * depth.2).transpose() - through * traction.2;
-        let drow_darea = by_depth * self.depth - through * traction.3;
+        let depth = self.depth_slopes(node);
+        let traction = self.traction_slopes(node, &depth);
+        let (by_depth, through) = (r.drow_dnow * nu * m, through::<N>(&r.drow_dlambda));
+        let drow_dlambda = r.drow_dlambda + by_depth * depth.lambda - through * traction.lambda;
+        let drow_dnow = r.drow_dnow + by_depth * depth.now - through * traction.now;
+        let drow_dprevious = r.drow_dprevious + by_depth * depth.previous - through * traction.previous;
+        let drow_darea = r.drow_dnow * nu * self.depth - through * traction.area;
         let drow_dlambda = drow_dlambda * self.share;
         let direction = SMatrix::<f64, 3, N>::from_fn(|i, j| if N == 1 { nu[i] } else { f64::from(u8::from(i == j)) });
         NodeResponse {
@@ -306,6 +308,12 @@ impl LayerAnswer {
         };
         Turn { dp_dnormal, drow_dnormal }
     }
+}
+
+/// What g_T takes of a gap at t_n's weights; nothing where the node was not covered then.
+fn in_plane<const N: usize>(node: &Node<N>) -> Mat3 {
+    let nu = node.normal;
+    if node.covered_before { node.free * (Mat3::identity() - nu * nu.transpose()) } else { Mat3::zeros() }
 }
 
 fn part<const N: usize>(v: &SVector<f64, N>, i: usize) -> f64 {
