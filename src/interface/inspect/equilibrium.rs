@@ -230,7 +230,9 @@ pub fn equilibrium<const N: usize>(
         let least = (PRESSES * traction).max(NOTHING * scales.modulus);
         let presses = |a: usize| {
             let acts = given.setup.has_multiplier(a) && given.setup.nodes.acts(a);
-            acts && lambda[a].norm() * (sums[a].coverage / areas[a]).min(1.0) > least
+            // What a bond bears between surfaces that are apart does not press.
+            let bears = given.setup.layer.is_some() && responses[a].state == State::Gap;
+            acts && !bears && lambda[a].norm() * (sums[a].coverage / areas[a]).min(1.0) > least
         };
         // Weights of the reference do not know where the surfaces are, and persistent ones take overlaps for closed.
         let knows = matches!(options.weights, Weights::Current | Weights::Committed);
