@@ -141,3 +141,18 @@ def test_a_peeled_beam_has_the_force_of_beam_theory_and_loses_the_toughness(tmp_
     assert off / 100 <= BEAM
     assert lost <= LOST
     assert abs(work / (stored + gone) - 1) <= BALANCE
+
+
+# Sums over a hundred steps of a dozen nodes.
+WEAR_ROUNDING = 1e-12
+# Of depth and volume, between jumps of 20 cycles and of 10. 0.003 and 0.004 are found.
+JUMPS = 0.01
+
+
+def test_a_fretting_pad_is_worn_by_the_work_of_its_friction_and_jumps_of_cycles_converge(tmp_path):
+    printed = run("fretting.py", tmp_path)
+    assert "monotone: True" in printed
+    assert float(re.search(r"mu - 1: (\S+)", printed).group(1)) <= WEAR_ROUNDING
+    depths, volumes = re.search(r"depth (\S+ \S+), volume (\S+ \S+)", printed).groups()
+    for coarse, fine in (map(float, pair.split()) for pair in (depths, volumes)):
+        assert abs(coarse / fine - 1) <= JUMPS
