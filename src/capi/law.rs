@@ -176,8 +176,18 @@ fn read_law(law: *const stickslip_law) -> Result<Option<Own>> {
     if law.is_null() {
         return Ok(None);
     }
-    let stickslip_law { struct_size: _, kind, reserved, cohesion, mu_after, critical_slip, mu_across, direction, critical_rate, time } =
-        sized::read(law)?;
+    let stickslip_law {
+        struct_size: _,
+        kind,
+        reserved,
+        cohesion,
+        mu_after,
+        critical_slip,
+        mu_across,
+        direction,
+        critical_rate,
+        time,
+    } = sized::read(law)?;
     let [x, y, z] = direction;
     let numbers = [
         ("reserved", f64::from(reserved), &[][..]),

@@ -75,8 +75,7 @@ fn read_layer(layer: *const stickslip_layer) -> Result<Option<Layer>> {
         shear: of.bond_shear,
     };
     let has_bond = numbers[1..].iter().any(|(_, v)| *v != 0.0);
-    let layer =
-        Layer { overclosure, wear: (of.wear != 0.0).then_some(of.wear), bond: has_bond.then_some(bond) };
+    let layer = Layer { overclosure, wear: (of.wear != 0.0).then_some(of.wear), bond: has_bond.then_some(bond) };
     layer.validate()?;
     Ok((layer != Layer::default()).then_some(layer))
 }

@@ -74,12 +74,7 @@ pub fn facet_rows<const N: usize>(gaps: FacetGaps, nodes: &FacetResponse<N>, row
 /// The same of one multiplier, through how an answer of three components depends on its gaps of now and of t_n: `[column][j][i]`, with a
 /// fourth number that nobody takes.
 #[inline(never)]
-pub fn node_row(
-    gaps: FacetGaps,
-    k: usize,
-    ([now, before], area): ([&Mat3; 2], &Vec3),
-    row: &mut [[[f64; 4]; 3]],
-) {
+pub fn node_row(gaps: FacetGaps, k: usize, ([now, before], area): ([&Mat3; 2], &Vec3), row: &mut [[[f64; 4]; 3]]) {
     let mut add = |column: usize, j: usize, of: Vec3| (0..3).for_each(|i| row[column][j][i] += of[i]);
     for (column, previous) in gaps.previous.iter().enumerate() {
         let fixed = gaps.fixed.get(column).map_or(0.0, |fixed| fixed[k]);

@@ -185,7 +185,6 @@ impl Layer {
     }
 }
 
-
 /// lambda_N.
 fn normal_part<const N: usize>(node: &Node<N>) -> f64 {
     if N == 1 { node.lambda[0] } else { super::cone::trial(node).lambda_n }

@@ -60,8 +60,13 @@ impl PartialEq for Host {
 }
 
 /// Names in sentences, in the order of [`Own`].
-pub const OWN_NAMES: [&str; 5] =
-    ["cohesion", "weakening friction", "orthotropic friction", "the host's own law", "friction that follows the rate of slip"];
+pub const OWN_NAMES: [&str; 5] = [
+    "cohesion",
+    "weakening friction",
+    "orthotropic friction",
+    "the host's own law",
+    "friction that follows the rate of slip",
+];
 
 /// -dk / dsigma_N may be below zero by the rounding of a derivative that should be none.
 const ROUNDING_OF_FALL: f64 = 1e-12;

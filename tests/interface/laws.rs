@@ -70,7 +70,13 @@ fn laws() -> [Own; 6] {
 
 /// Those that are Coulomb's.
 fn coulombs() -> [Own; 5] {
-    [Own::Rate { after: MU, rate: 0.1, time: 1.0 },Own::Cohesion { cohesion: 0.0 }, Own::Weakening { after: MU, slip: 0.1 }, ellipse(MU), host(coulomb, 0)]
+    [
+        Own::Rate { after: MU, rate: 0.1, time: 1.0 },
+        Own::Cohesion { cohesion: 0.0 },
+        Own::Weakening { after: MU, slip: 0.1 },
+        ellipse(MU),
+        host(coulomb, 0),
+    ]
 }
 
 fn error<const N: usize>(contact: &mut Contact<N>, x: (&[Vec3], &[Vec3]), lambda: &[SVector<f64, N>]) -> f64 {

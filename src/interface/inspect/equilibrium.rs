@@ -142,7 +142,8 @@ pub fn equilibrium<const N: usize>(
 
     let shared =
         if carried.contains(&true) { carriers_sums(given, sums, carried, &given.normals()?)? } else { Vec::new() };
-    let [mut states, mut of_layer] = [memory::filled(0.0, given.setup.states()[0])?, memory::filled(0.0, given.setup.states()[1])?];
+    let [mut states, mut of_layer] =
+        [memory::filled(0.0, given.setup.states()[0])?, memory::filled(0.0, given.setup.states()[1])?];
     for a in nodes() {
         let sum = shared.binary_search_by_key(&a, |(b, _)| *b).map_or(&sums[a], |at| &shared[at].1);
         let h = given.size(a);

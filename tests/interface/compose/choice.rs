@@ -12,7 +12,10 @@ pub const DIMENSIONS: [(&str, &[&str]); 23] = [
     ("form", &["multiplier", "augmented"]),
     ("weights", &["current", "committed", "reference", "persistent"]),
     ("slip", &["objective", "increment", "paper"]),
-    ("law", &["coulomb", "none", "mu0", "tresca", "tied", "rough", "own", "cohesion", "weakening", "orthotropic", "rate"]),
+    (
+        "law",
+        &["coulomb", "none", "mu0", "tresca", "tied", "rough", "own", "cohesion", "weakening", "orthotropic", "rate"],
+    ),
     ("layer", &["no", "overclosure", "wear", "bond", "all"]),
     ("mortar", &["deformable", "rigid", "plane", "sphere", "cylinder", "mplane", "msphere", "mcylinder"]),
     ("system", &["multipliers", "condensed", "inplace"]),
