@@ -22,7 +22,7 @@ const ALLOWED: [(&str, &[&str]); 19] = [
     ("line", &["error", "features", "geometry", "mortar", "quadrature", "shape", "simd"]),
     ("dual", &["error", "geometry", "mortar", "shape", "simd"]),
     ("points", &["geometry", "mortar", "quadrature", "shape"]),
-    ("law", &["error", "geometry"]),
+    ("law", &["error", "geometry", "memory"]),
     ("element", &["dual", "error", "geometry", "law", "mortar", "quadrature", "shape", "simd"]),
     (
         "interface",
@@ -111,6 +111,7 @@ const KNOW_THE_HANDLE: [&str; 11] = [
     "interface/evaluation.rs",
     "interface/linearisation.rs",
     "interface/mod.rs",
+    "interface/layer.rs",
     "interface/offsets.rs",
     "interface/own.rs",
     "interface/sensitive.rs",
