@@ -106,6 +106,7 @@ pub unsafe extern "C" fn stickslip_interface_set_layer(
         let layer = read_layer(layer)?;
         if layer.is_some() {
             features::needs!(LAWS);
+            features::needs!(OFFSETS); // covered areas change as a gap by an offset does
         }
         either!(&mut h.inner, c => c.set_layer(layer))
     })
