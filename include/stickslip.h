@@ -385,9 +385,9 @@
 /// friction and the paper's slip measure (STICKSLIP_SLIP_PAPER); standard multipliers (STICKSLIP_BASIS_STANDARD); persistent
 /// weights (STICKSLIP_WEIGHTS_PERSISTENT); the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps
 /// (method.element_points); nodes that others carry (weak_coverage > 0, the default of dual multipliers); an analytic mortar
-/// side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid nodes; a law of one's own; parts of an interface
-/// (owned has STICKSLIP_NODE_ELSEWHERE); nodes that handles share (owned has STICKSLIP_NODE_SHARED); condensation; heat;
-/// derivatives by positions of t_n and by parameters.
+/// side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid nodes; a law of one's own; a layer between the
+/// surfaces (stickslip_interface_set_layer); parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE); nodes that handles
+/// share (owned has STICKSLIP_NODE_SHARED); condensation; heat; derivatives by positions of t_n and by parameters.
 #define STICKSLIP_DECISION_POINTS 1
 
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
@@ -2921,9 +2921,9 @@ int32_t stickslip_interface_set_law_states(struct stickslip_interface *interface
 /// import. Its numbers may change from step to step; where wear or a bond comes or goes its states begin at 0, and no commit before it can be
 /// undone. Offsets, which are the host's, are there beside it.
 ///
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); persistent weights (STICKSLIP_WEIGHTS_PERSISTENT); tied
-/// surfaces (STICKSLIP_FRICTION_TIED); derivatives by positions of t_n and by parameters. Wear and a bond also not with the
-/// paper's slip measure (STICKSLIP_SLIP_PAPER).
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); persistent weights
+/// (STICKSLIP_WEIGHTS_PERSISTENT); tied surfaces (STICKSLIP_FRICTION_TIED); derivatives by positions of t_n and by
+/// parameters.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INVALID_VALUE (a number; wear or a bond without friction, which have no
 /// slip), UNSUPPORTED (see above), and those of a search, where pairs must be sought farther or deeper.

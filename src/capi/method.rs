@@ -121,9 +121,9 @@ pub const STICKSLIP_DECISION_NODES: i32 = 0;
 /// friction and the paper's slip measure (STICKSLIP_SLIP_PAPER); standard multipliers (STICKSLIP_BASIS_STANDARD); persistent
 /// weights (STICKSLIP_WEIGHTS_PERSISTENT); the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps
 /// (method.element_points); nodes that others carry (weak_coverage > 0, the default of dual multipliers); an analytic mortar
-/// side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid nodes; a law of one's own; parts of an interface
-/// (owned has STICKSLIP_NODE_ELSEWHERE); nodes that handles share (owned has STICKSLIP_NODE_SHARED); condensation; heat;
-/// derivatives by positions of t_n and by parameters.
+/// side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid nodes; a law of one's own; a layer between the
+/// surfaces (stickslip_interface_set_layer); parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE); nodes that handles
+/// share (owned has STICKSLIP_NODE_SHARED); condensation; heat; derivatives by positions of t_n and by parameters.
 pub const STICKSLIP_DECISION_POINTS: i32 = 1;
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
 pub const STICKSLIP_ROW_SCALE_FORCE: i32 = 0;
