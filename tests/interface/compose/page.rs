@@ -27,6 +27,7 @@ const PLACES: [(&str, &str, Feature); 20] = [
     ("options.rs", "pub const STICKSLIP_MORTAR_ANALYTIC:", Feature::Analytic),
     ("law.rs", "pub const STICKSLIP_LAW_ORTHOTROPIC:", Feature::Orthotropic),
     ("law.rs", "pub unsafe extern \"C\" fn stickslip_interface_set_law(", Feature::OwnLaw),
+    ("layer.rs", "pub unsafe extern \"C\" fn stickslip_interface_set_layer(", Feature::Layer),
     ("offsets.rs", "pub unsafe extern \"C\" fn stickslip_interface_set_offsets(", Feature::Offsets),
     ("interface.rs", "pub unsafe extern \"C\" fn stickslip_interface_set_committed(", Feature::NodeHistory),
     ("condensed.rs", "pub unsafe extern \"C\" fn stickslip_interface_condensed_multipliers(", Feature::Condensed),
