@@ -117,6 +117,7 @@ PetscErrorCode iterative_set(Solve *solve, KSP ksp)
   PetscCall(KSPSetOptionsPrefix(iterative->krylov, "iterative_"));
   PetscCall(KSPSetType(iterative->krylov, KSPGMRES));
   PetscCall(KSPGMRESSetRestart(iterative->krylov, RESTART));
+  PetscCall(KSPGMRESSetCGSRefinementType(iterative->krylov, KSP_GMRES_CGS_REFINE_IFNEEDED));
   PetscCall(KSPSetPCSide(iterative->krylov, PC_RIGHT));
   PetscCall(KSPSetTolerances(iterative->krylov, RTOL, 0, PETSC_DEFAULT, MOST_ITERATIONS));
   PetscCall(KSPGetPC(iterative->krylov, &pc));
