@@ -15,4 +15,6 @@ PetscErrorCode coarse_create(Physics *physics, const NodeBlocks *blocks, Mat lik
 PetscErrorCode coarse_destroy(Coarse *coarse);
 /* Q: what is constrained at the nodes, and not to be coarse; NULL: nothing */
 PetscErrorCode multigrid_create(const Coarse *coarse, Mat Q, Mat P, PC *pc);
+/* From the next one on a smoother that is dearer and gets through more; `more`: it is another one */
+PetscErrorCode multigrid_fill(PetscBool *more);
 #endif

@@ -13,7 +13,7 @@
  * a node changes its state or the direction of its slip, and where surfaces have slid over facets. It serves no more where it has cost more iterations than its own matrix took,
  * in all solves since, than making another one costs. */
 static const PetscReal SAME = 0.3;
-enum { SET_UP_IN_ITERATIONS = 40, N_MADE_FOR = REDUCTION_CONSTRAINED + 1 };
+enum { SET_UP_IN_ITERATIONS = 40, SLOW = 40, N_MADE_FOR = REDUCTION_CONSTRAINED + 1 };
 
 /* Entries of E_L J E_R that cancel, over the largest of the node: rounding. Left in they would join the bodies across open gaps. */
 static const PetscReal CANCELLED = 1e-13;
@@ -92,12 +92,29 @@ static PetscErrorCode serves(const Reduced *reduced, PetscBool *yes)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* With a non-mortar body that is so many times as stiff as its mortar body, ILU without fill is unstable from 3e4 unknowns on. */
+static const PetscReal STIFF = 30;
+
+static PetscBool stiff_above(const Contact *contact)
+{
+  const Mesh     *mesh      = contact->mesh;
+  const Material *materials = contact->physics->materials;
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    const PetscInt *body = contact->interfaces[i].body;
+    if (mesh->bodies[body[0]].rigid || mesh->bodies[body[1]].rigid) continue;
+    if (materials[body[0]].young > STIFF * materials[body[1]].young) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
 static PetscErrorCode create(Reduced *reduced, Mat J)
 {
-  Physics *physics = reduced->contact->physics;
+  Physics  *physics = reduced->contact->physics;
+  PetscBool more;
   PetscFunctionBegin;
   PetscCall(node_blocks_create(physics, J, &reduced->blocks));
   PetscCall(coarse_create(physics, &reduced->blocks, J, &reduced->coarse));
+  if (stiff_above(reduced->contact)) PetscCall(multigrid_fill(&more));
   PetscCall(VecDuplicate(reduced->blocks.coordinates, &reduced->in));
   PetscCall(VecDuplicate(reduced->blocks.coordinates, &reduced->out));
   PetscCall(MatCreateVecs(J, &reduced->right, &reduced->left));
@@ -165,11 +182,13 @@ static PetscErrorCode destroy(PC pc)
 
 PetscErrorCode reduced_judge(PC pc, PetscInt iterations, PetscBool converged, PetscBool *stale)
 {
-  Reduced *reduced;
+  Reduced  *reduced;
+  PetscBool more = PETSC_FALSE;
   PetscFunctionBegin;
   PetscCall(PCShellGetContext(pc, &reduced));
+  if (reduced->fresh < 0 && (!converged || iterations > SLOW)) PetscCall(multigrid_fill(&more));
   if (reduced->fresh >= 0) reduced->more += iterations - reduced->fresh;
-  *stale = (PetscBool)(reduced->fresh >= 0 && (!converged || reduced->more > SET_UP_IN_ITERATIONS));
+  *stale = (PetscBool)(more || (reduced->fresh >= 0 && (!converged || reduced->more > SET_UP_IN_ITERATIONS)));
   if (*stale) PetscCall(forget(reduced));
   else if (reduced->fresh < 0) reduced->fresh = iterations;
   PetscFunctionReturn(PETSC_SUCCESS);
