@@ -9,11 +9,15 @@
 #include "solve/reduced.h"
 #include "solve/multigrid.h"
 
-/* The multigrid of an earlier matrix serves as long as E_L, E_R and Q are about what they were: they change by as much as they have where
- * a node changes its state or the direction of its slip, and where surfaces have slid over facets. It serves no more where it has cost more iterations than its own matrix took,
- * in all solves since, than making another one costs. */
+/* The multigrid of an earlier matrix serves as long as E_L, E_R and Q are about what they were: where a node changes its state or the
+ * direction of its slip, or surfaces slide over a facet, they change by as much as they have. With E_L of before its slip had a direction
+ * GMRES takes half as long again. It serves no more either once all solves since its own have taken more iterations beyond that one's
+ * than another set-up costs. */
 static const PetscReal SAME = 0.3;
-enum { SET_UP_IN_ITERATIONS = 40, SLOW = 40, N_MADE_FOR = REDUCTION_CONSTRAINED + 1 };
+enum { SET_UP_IN_ITERATIONS = 40, N_MADE_FOR = REDUCTION_CONSTRAINED + 1 };
+
+/* From so many iterations on, with its own multigrid, a smoother that takes longer gains time. */
+enum { SLOW = 40 };
 
 /* Entries of E_L J E_R that cancel, over the largest of the node: rounding. Left in they would join the bodies across open gaps. */
 static const PetscReal CANCELLED = 1e-13;
@@ -92,7 +96,7 @@ static PetscErrorCode serves(const Reduced *reduced, PetscBool *yes)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* With a non-mortar body that is so many times as stiff as its mortar body, ILU without fill is unstable from 3e4 unknowns on. */
+/* With a non-mortar body that is so many times as stiff as its mortar body ILU without fill gets slow, and is unstable from 3e4 unknowns on. */
 static const PetscReal STIFF = 30;
 
 static PetscBool stiff_above(const Contact *contact)
