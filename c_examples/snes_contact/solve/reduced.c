@@ -9,10 +9,10 @@
 #include "solve/reduced.h"
 #include "solve/multigrid.h"
 
-/* The multigrid of an earlier matrix serves as long as E_L, E_R and Q are about what they were: where a node changes its state or the
- * direction of its slip, or surfaces slide over a facet, they change by as much as they have. With E_L of before its slip had a direction
- * GMRES takes half as long again. It serves no more either once all solves since its own have taken more iterations beyond that one's
- * than another set-up costs. */
+/* The multigrid of an earlier matrix serves as long as E_L, E_R and Q are about what they were: where a node changes its state, begins to
+ * slip (then 1 / (1 - beta) in E_L is large) or slides over a facet, they change by as much as they have. Kept beyond such a change it takes
+ * half as many iterations again. It serves no more either once all solves since its own have taken more iterations beyond that one's than
+ * another set-up costs. */
 static const PetscReal SAME = 0.3;
 enum { SET_UP_IN_ITERATIONS = 40, N_MADE_FOR = REDUCTION_CONSTRAINED + 1 };
 
