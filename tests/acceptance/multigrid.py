@@ -5,7 +5,7 @@ from condensed import QUIET
 from iterative import as_direct, dual
 from scene import write
 
-# Cells along an edge of the upper block: 4344 and 13500 unknowns.
+# Cells along an edge of the upper block: 4344 and 13140 unknowns.
 SIZES = (8, 12)
 # GMRES to 1e-8. Aggregates across the interface took 18 and 24 iterations where nodes slip, up to 32, and 25 without friction.
 TO = ("-iterative_ksp_rtol", "1e-8")
