@@ -63,7 +63,7 @@ def launch(build, output, n, solver, options, name=None, expect=0):
 def measure(build, output, n, solver, options):
     folder, _, usage = launch(build, output, n, solver, options)
     summary = json.loads((folder / "summary.json").read_text())
-    newton = sum(step["newton_iterations"] for step in summary["steps"])
+    newton, seconds = sum(step["newton_iterations"] for step in summary["steps"]), summary["seconds"]
     linear = summary.get("linear_solver", {})
     return {
         "cells": n,
@@ -73,8 +73,8 @@ def measure(build, output, n, solver, options):
         "most": linear.get("most"),
         "mean": linear["iterations"] / linear["solves"] if linear else None,
         "direct": linear.get("direct"),
-        "seconds": summary["seconds"]["linear_solve"] / newton,
-        "total": summary["seconds"]["total"],
+        "seconds": seconds["linear_solve"] / newton * seconds["processor"] / seconds["total"],
+        "total": seconds["processor"],
         "gigabytes": usage.ru_maxrss / 1e6,
     }
 
