@@ -15,6 +15,7 @@ from scaling import renew  # noqa: E402
 from scene import SCENES, SceneError, interfaces  # noqa: E402
 
 BEGIN, END = "<!-- hard.py writes from here -->", "<!-- to here: hard.py -->"
+FINE = ("-upper_cells", "16,16,16", "-lower_cells", "17,17,16")
 # Case, scene, options; the lower block, the mortar body, is twice as stiff as the upper one, of 1000.
 CASES = (
     ("two blocks, all nodes slip", "two_blocks", ()),
@@ -23,6 +24,8 @@ CASES = (
     ("non-mortar body 10 times stiffer", "two_blocks", ("-upper_young", "2e4")),
     ("100 times", "two_blocks", ("-upper_young", "2e5")),
     ("1000 times", "two_blocks", ("-upper_young", "2e6")),
+    ("100 times, a finer mesh", "two_blocks", ("-upper_young", "2e5", *FINE)),
+    ("1000 times, a finer mesh", "two_blocks", ("-upper_young", "2e6", *FINE)),
     ("mortar body 1000 times stiffer", "two_blocks", ("-lower_young", "1e6")),
     ("mortar mesh twice as fine", "two_blocks", ("-lower_cells", "17,17,8")),
     ("non-mortar mesh twice as fine", "two_blocks", ("-upper_cells", "16,16,8")),
@@ -32,6 +35,7 @@ CASES = (
     ("supports of single components", "hertz_line_coarse", ()),
     ("a line that partly sticks", "cattaneo_line", ()),
     ("curved, turned while it slips", "turned_shaft", ()),
+    ("a third body, 1e13 times stiffer", "third_body", ()),
     ("tied", "patch_tied", ()),
 )
 

@@ -33,7 +33,14 @@ LARGEST_DIRECT = 24
 HELD_SIZE, HELD_RANKS = 24, (1, 2, 4)
 OPTIONS = ("-unknowns", "displacements", "-contact_basis", "dual", "-output_quiet", "true")
 STANDARD = ("-contact_basis", "standard", "-output_quiet", "true")
-HELD_BY_CONTACT = ("-grip_components", "z", "-contact_friction", "1")
+# What the table is made for, in place of blocks that slip.
+CASES = {
+    "slipping": (),
+    "frictionless": ("-contact_law", "none", "-contact_friction", "0"),
+    "sticking": ("-contact_friction", "1"),
+    "tied": ("-contact_law", "tied", "-contact_friction", "0"),
+    "held": ("-grip_components", "z", "-contact_friction", "1"),
+}
 STANDARD_BEGIN, STANDARD_END = "<!-- scaling.py writes of multipliers from here -->", "<!-- multipliers to here -->"
 
 
@@ -56,7 +63,7 @@ def launch(build, output, n, solver, options, name=None, expect=0):
 def measure(build, output, n, solver, options):
     folder, _, usage = launch(build, output, n, solver, options)
     summary = json.loads((folder / "summary.json").read_text())
-    newton = sum(step["newton_iterations"] for step in summary["steps"])
+    newton, seconds = sum(step["newton_iterations"] for step in summary["steps"]), summary["seconds"]
     linear = summary.get("linear_solver", {})
     return {
         "cells": n,
@@ -66,8 +73,8 @@ def measure(build, output, n, solver, options):
         "most": linear.get("most"),
         "mean": linear["iterations"] / linear["solves"] if linear else None,
         "direct": linear.get("direct"),
-        "seconds": summary["seconds"]["linear_solve"] / newton,
-        "total": summary["seconds"]["total"],
+        "seconds": seconds["linear_solve"] / newton * seconds["processor"] / seconds["total"],
+        "total": seconds["processor"],
         "gigabytes": usage.ru_maxrss / 1e6,
     }
 
@@ -107,7 +114,7 @@ def table(rows):
     lines = ["| unknowns | solver | Newton iterations | GMRES' iterations a solve: mean, most | seconds a solve | "
              "seconds of the run | memory, GB |", "|---|---|---|---|---|---|---|"]
     for row in rows:
-        krylov = f"{row['mean']:.0f}, {row['most']}" if row["most"] else "-"
+        krylov = f"{row['mean']:.1f}, {row['most']}" if row["most"] else "-"
         name = {"iterative": "multigrid", "direct": "MUMPS"}[row["solver"]]
         lines.append(f"| {row['unknowns']} | {name} | {row['newton']} | {krylov} | {row['seconds']:.2f} | {row['total']:.1f} "
                      f"| {row['gigabytes']:.2f} |")
@@ -122,7 +129,7 @@ def main():
     parser.add_argument("--renew", action="store_true", help="write the table into docs/scaling.md")
     parser.add_argument("--standard", action="store_true", help="with standard multipliers among the unknowns")
     parser.add_argument("--rtol", help="of GMRES, in place of the driver's")
-    parser.add_argument("--held-by-contact", action="store_true", help="the upper block held by contact alone, with friction 1")
+    parser.add_argument("--case", choices=CASES, default="slipping", help="of the contact; held: the upper block by contact alone, with friction 1")
     parser.add_argument("--ranks", action="store_true", help="what ranks hold, in place of the solvers")
     args = parser.parse_args()
     output = args.build / "scaling"
@@ -135,7 +142,7 @@ def main():
         return
     options = STANDARD if args.standard else OPTIONS
     options += ("-iterative_ksp_rtol", args.rtol) if args.rtol else ()
-    options += HELD_BY_CONTACT if args.held_by_contact else ()
+    options += CASES[args.case]
     rows = []
     for n in args.sizes:
         for solver in ("iterative", "direct")[: 1 if n > args.largest_direct else 2]:

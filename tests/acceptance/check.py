@@ -25,6 +25,7 @@ from ironing import ironing, ironing_full  # noqa: E402
 from material_checks import materials  # noqa: E402
 from laws import laws  # noqa: E402
 from loads import loads  # noqa: E402
+from multigrid import multigrid  # noqa: E402
 from normals import normals  # noqa: E402
 from normals_full import normals_full, normals_iterations  # noqa: E402
 from heat import heat  # noqa: E402
@@ -77,6 +78,7 @@ GROUPS = {
     "hosts": hosts,
     "iterative": iterative,
     "iterative_scenes": iterative_scenes,
+    "multigrid": multigrid,
     "ironing": ironing,
     "ironing_full": ironing_full,  # four minutes; not among the tests
     "dynamics": dynamics,

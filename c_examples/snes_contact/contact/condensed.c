@@ -44,6 +44,7 @@ PetscErrorCode condensed_check(const Contact *contact, char why[], size_t length
 
   PetscFunctionBegin;
   why[0] = 0;
+  if (!contact->n_interfaces) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(directory_create(mesh, 0, NULL, &n_here, &directory));
   PetscCall(PetscSFDestroy(&directory));
   for (int side = 0; side < 2; side++) {

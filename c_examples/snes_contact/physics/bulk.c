@@ -272,6 +272,19 @@ PetscErrorCode bulk_stiffness(Physics *physics, Mat matrix, PetscInt *status)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode bulk_stiffness_at_rest(Physics *physics, Mat matrix)
+{
+  const Vec now = physics->u_local;
+  PetscInt  status;
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(now, &physics->u_local));
+  PetscCall(VecZeroEntries(physics->u_local));
+  PetscCall(bulk_stiffness(physics, matrix, &status));
+  PetscCall(VecDestroy(&physics->u_local));
+  physics->u_local = now;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Of the bodies of finite strain, as if they were linear: stiffness K, and forces K u of the displacements u. */
 PetscErrorCode bulk_extension(Physics *physics, Vec u_local, Vec f_local, Mat matrix)
 {

@@ -332,6 +332,7 @@ Element        bulk_element(const Physics *physics, PetscInt cell); /* of this r
 /* `status` > 0 on every rank if a cell is turned inside out somewhere, named in physics->inverted */
 PetscErrorCode bulk_forces(Physics *physics, Vec f_local, PetscInt *status); /* adds, to the parts' squares, too */
 PetscErrorCode bulk_stiffness(Physics *physics, Mat matrix, PetscInt *status);         /* adds */
+PetscErrorCode bulk_stiffness_at_rest(Physics *physics, Mat matrix);                  /* the same, wherever the bodies are */
 /* the same; with a step bodies of finite strain have those of elasticity_step.c, the others those of u_local */
 PetscErrorCode bulk_step_forces(Physics *physics, const BulkStep *step, Vec f_local, PetscInt *status);
 PetscErrorCode bulk_step_stiffness(Physics *physics, const BulkStep *step, Mat matrix, PetscInt *status);

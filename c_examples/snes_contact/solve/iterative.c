@@ -69,15 +69,17 @@ static PetscErrorCode apply(PC pc, Vec r, Vec u)
   Iterative         *iterative;
   Linear            *linear;
   KSPConvergedReason reason;
-  PetscInt           iterations;
+  PetscInt           n, iterations = 0;
   PetscBool          stale;
   Mat                J;
   PetscFunctionBegin;
   PetscCall(PCShellGetContext(pc, &iterative));
   linear = &iterative->solve->linear;
   PetscCall(PCGetOperators(pc, &J, NULL));
-  PetscCall(iterate(iterative, J, r, u, &reason, &iterations, &stale));
-  if (stale && reason < 0) PetscCall(iterate(iterative, J, r, u, &reason, &iterations, &stale));
+  do {
+    PetscCall(iterate(iterative, J, r, u, &reason, &n, &stale));
+    iterations += n;
+  } while (stale && reason < 0);
   linear->n_solves++;
   linear->iterations += iterations;
   linear->most = PetscMax(linear->most, iterations);
@@ -117,6 +119,7 @@ PetscErrorCode iterative_set(Solve *solve, KSP ksp)
   PetscCall(KSPSetOptionsPrefix(iterative->krylov, "iterative_"));
   PetscCall(KSPSetType(iterative->krylov, KSPGMRES));
   PetscCall(KSPGMRESSetRestart(iterative->krylov, RESTART));
+  PetscCall(KSPGMRESSetCGSRefinementType(iterative->krylov, KSP_GMRES_CGS_REFINE_IFNEEDED));
   PetscCall(KSPSetPCSide(iterative->krylov, PC_RIGHT));
   PetscCall(KSPSetTolerances(iterative->krylov, RTOL, 0, PETSC_DEFAULT, MOST_ITERATIONS));
   PetscCall(KSPGetPC(iterative->krylov, &pc));

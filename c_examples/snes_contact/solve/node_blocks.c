@@ -83,8 +83,8 @@ PetscErrorCode node_blocks_destroy(NodeBlocks *blocks)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The entries of a node's three rows that are above `least`, as columns of nodes and blocks of three by three, row after
- * row within a block. */
+/* The entries of a node's three rows that are above `least` times the largest of them, as columns of nodes and blocks of three by three, row
+ * after row within a block. */
 typedef struct {
   PetscInt     capacity, n, *columns;
   PetscScalar *values;
@@ -100,13 +100,31 @@ static PetscErrorCode reserve(BlockRow *row, PetscInt more)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode largest_entry(Mat matrix, PetscInt node, PetscReal *largest)
+{
+  const PetscScalar *values;
+  PetscInt           n;
+  PetscFunctionBegin;
+  *largest = 0;
+  for (int i = 0; i < 3; i++) {
+    PetscCall(MatGetRow(matrix, 3 * node + i, &n, NULL, &values));
+    for (PetscInt k = 0; k < n; k++)
+      *largest = PetscMax(*largest, PetscAbsScalar(values[k]));
+    PetscCall(MatRestoreRow(matrix, 3 * node + i, &n, NULL, &values));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode read_block_row(Mat matrix, PetscInt node, PetscReal least, BlockRow *row)
 {
   const PetscScalar *values;
   const PetscInt    *columns;
   PetscInt           n, place;
+  PetscReal          largest;
   PetscFunctionBegin;
   row->n = 0;
+  PetscCall(largest_entry(matrix, node, &largest));
+  least *= largest;
   for (int i = 0; i < 3; i++) {
     PetscCall(MatGetRow(matrix, 3 * node + i, &n, &columns, &values));
     PetscCall(reserve(row, n + 1));
@@ -130,36 +148,16 @@ static PetscErrorCode read_block_row(Mat matrix, PetscInt node, PetscReal least,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The largest entry. */
-static PetscErrorCode largest_entry(Mat matrix, PetscReal *largest)
+static PetscErrorCode squeeze(Mat from, PetscReal least, Mat *to)
 {
-  const PetscScalar *values;
-  PetscInt           begin, end, n;
+  PetscInt begin, end, n, *inside, *outside;
+  BlockRow row = {0};
   PetscFunctionBegin;
-  *largest = 0;
-  PetscCall(MatGetOwnershipRange(matrix, &begin, &end));
-  for (PetscInt row = begin; row < end; row++) {
-    PetscCall(MatGetRow(matrix, row, &n, NULL, &values));
-    for (PetscInt k = 0; k < n; k++)
-      *largest = PetscMax(*largest, PetscAbsScalar(values[k]));
-    PetscCall(MatRestoreRow(matrix, row, &n, NULL, &values));
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 1, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode node_blocks_squeeze(Mat from, PetscReal least, Mat *to)
-{
-  PetscInt  begin, end, n, *inside, *outside;
-  PetscReal largest;
-  BlockRow  row = {0};
-  PetscFunctionBegin;
-  PetscCall(largest_entry(from, &largest));
   PetscCall(MatGetOwnershipRange(from, &begin, &end));
   PetscCall(MatGetLocalSize(from, &n, NULL));
   PetscCall(PetscCalloc2(n / 3, &inside, n / 3, &outside));
   for (PetscInt node = begin / 3; node < end / 3; node++) {
-    PetscCall(read_block_row(from, node, least * largest, &row));
+    PetscCall(read_block_row(from, node, least, &row));
     for (PetscInt k = 0; k < row.n; k++)
       (row.columns[k] >= begin / 3 && row.columns[k] < end / 3 ? inside : outside)[node - begin / 3]++;
   }
@@ -169,7 +167,7 @@ PetscErrorCode node_blocks_squeeze(Mat from, PetscReal least, Mat *to)
   PetscCall(MatSetType(*to, MATAIJ));
   PetscCall(MatXAIJSetPreallocation(*to, 3, inside, outside, NULL, NULL));
   for (PetscInt node = begin / 3; node < end / 3; node++) {
-    PetscCall(read_block_row(from, node, least * largest, &row));
+    PetscCall(read_block_row(from, node, least, &row));
     for (PetscInt k = 0; k < row.n; k++)
       PetscCall(MatSetValuesBlocked(*to, 1, &node, 1, &row.columns[k], row.values + 9 * k, INSERT_VALUES));
   }
@@ -181,56 +179,32 @@ PetscErrorCode node_blocks_squeeze(Mat from, PetscReal least, Mat *to)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* v has no part along the others before it, and length 1; false: it has nothing else. */
-static PetscErrorCode orthonormalise(PetscInt n, Vec others[], Vec v, PetscBool *independent)
+/* an entry of the diagonal */
+static PetscErrorCode typical_entry(Mat matrix, PetscReal *typical)
 {
-  PetscScalar products[6];
-  PetscReal   before, after;
+  Vec      diagonal;
+  PetscInt n;
   PetscFunctionBegin;
-  PetscCall(VecNorm(v, NORM_2, &before));
-  for (int twice = 0; twice < 2; twice++) {
-    PetscCall(VecMDot(v, n, others, products));
-    for (PetscInt k = 0; k < n; k++)
-      products[k] = -products[k];
-    PetscCall(VecMAXPY(v, n, products, others));
-  }
-  PetscCall(VecNorm(v, NORM_2, &after));
-  *independent = (PetscBool)(after > PETSC_SQRT_MACHINE_EPSILON * before);
-  if (*independent) PetscCall(VecScale(v, 1 / after));
+  PetscCall(MatCreateVecs(matrix, &diagonal, NULL));
+  PetscCall(MatGetDiagonal(matrix, diagonal));
+  PetscCall(VecNorm(diagonal, NORM_1, typical));
+  PetscCall(VecGetSize(diagonal, &n));
+  *typical /= PetscMax(n, 1);
+  PetscCall(VecDestroy(&diagonal));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode node_blocks_modes(const NodeBlocks *blocks, Mat constrained, Mat matrix)
+PetscErrorCode node_blocks_matrix(const NodeBlocks *blocks, Mat from, PetscReal least, Mat *to)
 {
-  MatNullSpace rigid, modes;
-  const Vec   *given;
-  PetscInt     n, n_kept = 0;
-  Vec          kept[6], equations, along;
+  PetscReal typical;
+  Vec       prescribed;
   PetscFunctionBegin;
-  PetscCall(MatNullSpaceCreateRigidBody(blocks->coordinates, &rigid));
-  PetscCall(MatNullSpaceGetVecs(rigid, NULL, &n, &given));
-  PetscCall(MatCreateVecs(blocks->place, NULL, &equations));
-  PetscCall(VecDuplicate(equations, &along));
-  for (PetscInt k = 0; k < n; k++) {
-    PetscBool independent;
-    PetscCall(VecDuplicate(given[k], &kept[n_kept]));
-    PetscCall(MatMult(blocks->place, given[k], equations));
-    if (constrained) PetscCall(MatMult(constrained, equations, along));
-    if (constrained) PetscCall(VecAXPY(equations, -1, along));
-    PetscCall(MatMultTranspose(blocks->place, equations, kept[n_kept]));
-    PetscCall(orthonormalise(n_kept, kept, kept[n_kept], &independent));
-    if (independent) n_kept++;
-    else PetscCall(VecDestroy(&kept[n_kept]));
-  }
-  if (n_kept) { /* else contact holds every node that is free: constraints are all that is left, and multigrid has no modes to know */
-    PetscCall(MatNullSpaceCreate(PETSC_COMM_WORLD, PETSC_FALSE, n_kept, kept, &modes));
-    PetscCall(MatSetNearNullSpace(matrix, modes));
-    PetscCall(MatNullSpaceDestroy(&modes));
-  }
-  for (PetscInt k = 0; k < n_kept; k++)
-    PetscCall(VecDestroy(&kept[k]));
-  PetscCall(MatNullSpaceDestroy(&rigid));
-  PetscCall(VecDestroy(&equations));
-  PetscCall(VecDestroy(&along));
+  PetscCall(typical_entry(from, &typical));
+  PetscCall(squeeze(from, least, to));
+  PetscCall(VecDuplicate(blocks->prescribed, &prescribed));
+  PetscCall(VecCopy(blocks->prescribed, prescribed));
+  PetscCall(VecScale(prescribed, typical));
+  PetscCall(MatDiagonalSet(*to, prescribed, ADD_VALUES));
+  PetscCall(VecDestroy(&prescribed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -11,8 +11,7 @@ typedef struct {
 
 PetscErrorCode node_blocks_create(const Physics *physics, Mat like, NodeBlocks *blocks);
 PetscErrorCode node_blocks_destroy(NodeBlocks *blocks);
-/* A copy in whole blocks, without what is below `least` times the largest entry. */
-PetscErrorCode node_blocks_squeeze(Mat from, PetscReal least, Mat *to);
-/* Gives the matrix the motions of a rigid body as its near null space, without what is constrained in them (NULL: nothing). */
-PetscErrorCode node_blocks_modes(const NodeBlocks *blocks, Mat constrained, Mat matrix);
+/* A copy of a matrix of components in whole blocks, without what is below `least` times the largest entry of a node's own rows, with a
+ * typical entry on the diagonal of what is prescribed. */
+PetscErrorCode node_blocks_matrix(const NodeBlocks *blocks, Mat from, PetscReal least, Mat *to);
 #endif

@@ -12,6 +12,7 @@
 typedef struct {
   const Contact *contact;
   NodeBlocks     blocks;
+  Coarse         coarse;
   IS             bodies, multipliers;
   Mat            B, C, S;
   PC             multigrid;
@@ -58,6 +59,7 @@ static PetscErrorCode create(Saddle *saddle, Mat J)
   PetscInt n, first;
   PetscFunctionBegin;
   PetscCall(node_blocks_create(saddle->contact->physics, J, &saddle->blocks));
+  PetscCall(coarse_create(saddle->contact->physics, &saddle->blocks, J, &saddle->coarse));
   PetscCall(split(saddle->contact->physics, J, &saddle->bodies, &saddle->multipliers));
   PetscCall(VecGetLocalSize(saddle->blocks.coordinates, &n));
   PetscCall(VecGetOwnershipRange(saddle->blocks.coordinates, &first, NULL));
@@ -114,21 +116,12 @@ static PetscErrorCode make_schur(Saddle *saddle, Mat J, Mat A)
 static PetscErrorCode make_multigrid(Saddle *saddle, Mat A)
 {
   const PetscReal nothing_left_out = 0;
-  PetscReal       typical;
-  Vec             prescribed;
   Mat             whole, P;
   PetscFunctionBegin;
   PetscCall(MatPtAP(A, saddle->place, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &whole));
-  PetscCall(multigrid_typical(whole, &typical));
-  PetscCall(node_blocks_squeeze(whole, nothing_left_out, &P));
+  PetscCall(node_blocks_matrix(&saddle->blocks, whole, nothing_left_out, &P));
   PetscCall(MatDestroy(&whole));
-  PetscCall(VecDuplicate(saddle->blocks.prescribed, &prescribed));
-  PetscCall(VecCopy(saddle->blocks.prescribed, prescribed));
-  PetscCall(VecScale(prescribed, typical));
-  PetscCall(MatDiagonalSet(P, prescribed, ADD_VALUES));
-  PetscCall(VecDestroy(&prescribed));
-  PetscCall(node_blocks_modes(&saddle->blocks, NULL, P));
-  PetscCall(multigrid_create(saddle->contact->physics, P, &saddle->multigrid));
+  PetscCall(multigrid_create(&saddle->coarse, NULL, P, &saddle->multigrid));
   PetscCall(MatDestroy(&P));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -188,6 +181,7 @@ static PetscErrorCode destroy(PC pc)
   PetscCall(PCShellGetContext(pc, &saddle));
   PetscCall(forget(saddle));
   PetscCall(node_blocks_destroy(&saddle->blocks));
+  PetscCall(coarse_destroy(&saddle->coarse));
   PetscCall(ISDestroy(&saddle->bodies));
   PetscCall(ISDestroy(&saddle->multipliers));
   PetscCall(MatDestroy(&saddle->place));
