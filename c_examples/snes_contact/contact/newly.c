@@ -34,9 +34,9 @@ static PetscErrorCode add_forces(const ContactPart *part, PetscReal mu, PetscRea
   PetscFunctionBegin;
   for (PetscInt k = 0; k < part->components * n1; k++)
     pressed = PetscMax(pressed, PetscAbsReal(PetscRealPart(MULTIPLIERS_OF(part, part->gathered)[k])));
-  if (!part->handle || !(pressed > 0)) PetscFunctionReturn(PETSC_SUCCESS); /* coverage would be sought */
+  if (!verb_there(part) || !(pressed > 0)) PetscFunctionReturn(PETSC_SUCCESS); /* coverage would be sought */
   PetscCall(PetscMalloc4(n1, &wanted.state, d * n1, &wanted.traction, d * n1, &wanted.normal, n1, &wanted.coverage));
-  PetscCallStickslip(stickslip_interface_states(part->handle, STATE_OF(part), NULL, &wanted));
+  PetscCallStickslip(verb_states(part, &wanted));
   for (PetscInt a = 0; a < n1; a++) {
     double   n[3], t[3], p, across = 0;
     PetscInt removed = 0;
