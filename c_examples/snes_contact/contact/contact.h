@@ -286,6 +286,7 @@ PetscErrorCode halo_destroy(Halo *halo);
 
 /* verbs.c: what is asked of the handle of a part, of two sides or of a skin; the library's status */
 PetscBool verb_there(const ContactPart *part); /* is there one? */
+PetscInt  verb_opposite(const ContactPart *part, PetscInt a); /* of a skin, where it lies near another node; -1: there is none */
 int32_t   verb_residual(ContactPart *part);
 int32_t   verb_initial_multipliers(ContactPart *part, double lambda[]);
 int32_t   verb_step_limit(ContactPart *part, const double dx[], double depth, double *fraction);
@@ -374,6 +375,13 @@ PetscErrorCode contact_scatter(const ContactPart *part, const PetscScalar *from,
 PetscErrorCode contact_start(Contact *contact, Vec x, PetscInt *status);
 PetscErrorCode contact_forces(Contact *contact, Vec f_local, PetscInt *status); /* adds, to the parts' squares, too */
 PetscErrorCode contact_commit(Contact *contact, Vec x, PetscInt *status); /* in x multipliers may change, of general contact */
+/* joints.c: bodies that contact joins at these states of all interfaces' nodes at home, or could; to be freed */
+typedef struct {
+  PetscInt  bodies[2];
+  PetscBool joined;
+} Joint;
+
+PetscErrorCode contact_joints(const Contact *contact, const int32_t states[], PetscInt *n, Joint **joints);
 /* again.c */
 PetscErrorCode contact_looks_anew(Contact *contact, PetscBool *anew);
 PetscErrorCode contact_exchange(Contact *contact, Vec x, PetscBool *any);

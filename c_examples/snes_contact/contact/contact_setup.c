@@ -64,15 +64,16 @@ static PetscErrorCode has_middles(const Mesh *mesh, const Interface *interface, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* of the mortar side's facets on all ranks */
+/* of the mortar side's facets on all ranks, of a skin of all */
 static PetscErrorCode longest_edge(const Interface *interface, PetscReal *longest)
 {
-  const Surface *surface = interface->surface[1];
+  const int      side    = interface->skin ? 0 : 1;
+  const Surface *surface = interface->surface[side];
   double        *x;
   PetscFunctionBegin;
   *longest = 0;
   PetscCall(PetscMalloc1(3 * (surface->analytic ? 0 : surface->offsets[surface->n_faces]), &x));
-  PetscCall(homes_bcast(interface->corners[1], 3, interface->place, x));
+  PetscCall(homes_bcast(interface->corners[side], 3, interface->place, x));
   for (PetscInt f = 0; f < surface->n_faces; f++) {
     const PetscInt first = surface->offsets[f], n = surface->offsets[f + 1] - first;
     for (PetscInt k = 0; k < n; k++) {

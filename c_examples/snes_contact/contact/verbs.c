@@ -7,6 +7,11 @@ PetscBool verb_there(const ContactPart *part)
   return (PetscBool)(part->handle || part->skin);
 }
 
+PetscInt verb_opposite(const ContactPart *part, PetscInt a)
+{
+  return part->skin ? part->skin->opposite[a] : -1;
+}
+
 /* A node's force belongs to the first of its copies, so that each counts once. */
 static void take_forces(ContactPart *part)
 {
