@@ -375,6 +375,8 @@ PetscErrorCode contact_scatter(const ContactPart *part, const PetscScalar *from,
 PetscErrorCode contact_start(Contact *contact, Vec x, PetscInt *status);
 PetscErrorCode contact_forces(Contact *contact, Vec f_local, PetscInt *status); /* adds, to the parts' squares, too */
 PetscErrorCode contact_commit(Contact *contact, Vec x, PetscInt *status); /* in x multipliers may change, of general contact */
+/* skin.c: of node a of the part, by what lies opposite in a skin */
+PetscReal contact_friction(const Mesh *mesh, const Interface *interface, PetscInt a);
 /* joints.c: bodies that contact joins at these states of all interfaces' nodes at home, or could; to be freed */
 typedef struct {
   PetscInt  bodies[2];

@@ -191,6 +191,22 @@ void skin_to_part(const ContactPart *part, PetscInt width, const double copies[]
     nodes[width * part->skin->copy[k / width] + k % width] = copies[k];
 }
 
+PetscReal contact_friction(const Mesh *mesh, const Interface *interface, PetscInt a)
+{
+  const ContactPart *part     = &interface->part;
+  const PetscInt     opposite = part->skin ? part->skin->opposite[a] : -1;
+  PetscReal          mu       = interface->options.mu;
+  PetscInt           own, other;
+  if (opposite < 0) return mu;
+  own   = mesh_body_of(mesh, part->vertices[a]);
+  other = mesh_body_of(mesh, part->vertices[opposite]);
+  for (PetscInt k = 0; k < interface->skin->n_pairs; k++) { /* the last word counts */
+    const SkinPair *pair = &interface->skin->pairs[k];
+    if ((pair->bodies[0] == own && pair->bodies[1] == other) || (pair->bodies[0] == other && pair->bodies[1] == own)) mu = PetscMax(0, pair->mu);
+  }
+  return mu;
+}
+
 PetscErrorCode skin_facets(const ContactPart *part, SkinFacets *facets)
 {
   const PetscInt       n   = part->skin->n_facets;

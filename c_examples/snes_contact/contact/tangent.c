@@ -90,19 +90,13 @@ static int32_t entries(ContactPart *part, int32_t piece, int64_t capacity, int64
                                            count);
 }
 
-/* Forces of the part at u_local, which rigid bodies turn round. The library has just evaluated them. */
-static int32_t forces(ContactPart *part)
-{
-  return stickslip_interface_residual(part->handle, STATE_OF(part), NULL, part->forces, MORTAR_OF(part, part->forces),
-                                      MULTIPLIERS_OF(part, part->forces));
-}
-
-/* What rigid bodies make of the values in the part's array; `force`: these are derivatives of forces. */
+/* What rigid bodies make of the values in the part's array; `force`: these are derivatives of forces, which bodies turn round. The library has
+ * just evaluated them. */
 static PetscErrorCode rigid_values(const Contact *contact, ContactPart *part, PetscBool force, int32_t *refused)
 {
   PetscFunctionBegin;
   if (!part->rigid || *refused) PetscFunctionReturn(PETSC_SUCCESS);
-  if (force) *refused = forces(part);
+  if (force) *refused = verb_residual(part);
   if (!*refused) PetscCall(rigid_part_values(contact, part, force ? part->forces : NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -29,7 +29,7 @@ static const char *remedy(const Interface *interface)
     return "With `weights: persistent` what overlaps at the start of a step counts as closed: take `weights: current`";
   if (interface->method.weights != STICKSLIP_WEIGHTS_CURRENT)
     return "Frozen weights do not know where the surfaces are: take `weights: current`, or shorter steps";
-  if (decision_is_points(interface) || interface->surface[1]->analytic) return "Facets that are coarser than the contact do not feel it: take finer ones";
+  if (decision_is_points(interface) || interface->surface[1]->analytic || interface->skin) return "Facets that are coarser than the contact do not feel it: take finer ones";
   return "Facets that are coarser than the contact do not feel it: make the side with the finer facets `nonmortar`, mesh both finer, or take "
          "`decision: points`";
 }

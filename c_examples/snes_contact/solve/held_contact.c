@@ -209,7 +209,7 @@ PetscErrorCode held_gaps(const Solve *solve, const Interface *interface, Gap gap
       gap->normal[i] = result[RESULT_NORMAL + i];
     }
     gap->gap      = result[RESULT_GAP] / result[RESULT_COVERAGE];
-    gap->friction = kind == STICKSLIP_FRICTION_COULOMB ? interface->options.mu : 0;
+    gap->friction = kind == STICKSLIP_FRICTION_COULOMB ? contact_friction(solve->mesh, interface, a) : 0;
     (*n)++;
   }
   PetscCall(PetscFree(results));
