@@ -17,8 +17,10 @@ OF_INTERFACES = ("decision", "offset", "adjust", "round", "cohesion", "critical_
 # Keys that say how contact is computed, and stay.
 METHOD = ("weights", "normals", "basis", "form", "augmentation", "augmentation_scale", "modulus", "weak_coverage", "new_contact", "slip",
           "turn_max", "slide_max", "lag_max", "lag_corrected", "quadrature", "integration", "points", "tangent", "multiplier_space")
-# Scenes whose facets carry on beside the named ones, so that others touch, too; or whose sides the library chooses otherwise.
-OTHERWISE = {}
+# Another problem: a part of a face is named there, and all of it touches.
+OTHERS = ("block_zone_mu05", "block_zone_mu05_facet", "block_zone_mu2", "block_zone_mu2_facet")
+# Where the library gives the multipliers to the other side than the scene does.
+OTHER_SIDES = ("ball_on_block", "mindlin", "ring_ball", "shaft_in_bore", "turned_shaft")
 
 
 def general(scene):
@@ -71,20 +73,20 @@ def compare(driver, path):
     fields = [run.mesh()[2] for run in runs]
     scale = np.abs(fields[0]).max()
     reactions = [np.array([step["reactions"][name] for step in run.steps[-1:] for name in sorted(step["reactions"])]) for run in runs]
-    largest = np.abs(reactions[0]).max(initial=0)
+    largest = max(np.abs(reactions[0]).max(initial=0), max(step["reference_force"] for step in runs[0].steps))
     return (np.abs(fields[1] - fields[0]).max() / scale, np.abs(reactions[1] - reactions[0]).max(initial=0) / largest if largest else 0.0,
             [run.newton_iterations for run in runs]), None
 
 
 def general_scenes(verdicts, driver):
     iterations = np.zeros(2)
-    for path in sorted(SCENES.glob("*.yaml")):
+    for path in sorted(path for path in SCENES.glob("*.yaml") if path.stem not in OTHERS):
         found, why = compare(driver, path)
         if found is None:
             if why.startswith("exit"):
                 verdicts.failed(f"{path.stem} as contact: all", why)
             continue
-        bound, reason = (SAME, "the same roles") if path.stem not in OTHERWISE else (OTHER_ROLES, OTHERWISE[path.stem])
+        bound, reason = (OTHER_ROLES, "other roles") if path.stem in OTHER_SIDES else (SAME, "the same roles")
         for quantity, error in zip(("displacements", "reactions"), found):
             verdicts.below(f"{path.stem} as contact: all: {quantity}, iterations {found[2][0]} and {found[2][1]}", error, bound, reason)
         iterations += found[2]
