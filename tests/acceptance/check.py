@@ -19,7 +19,7 @@ from dynamics_mass import mass  # noqa: E402
 from effect_checks import effects  # noqa: E402
 from exact import exact, exact_friction, exact_gears, exact_rolling  # noqa: E402
 from friction_checks import friction  # noqa: E402
-from general import general, general_full  # noqa: E402
+from general import general  # noqa: E402
 from general_scenes import general_scenes  # noqa: E402
 from hosts import hosts  # noqa: E402
 from iterative import iterative, iterative_scenes  # noqa: E402
@@ -77,7 +77,6 @@ GROUPS = {
     "exact_rolling": exact_rolling,
     "friction": friction,
     "general": general,
-    "general_full": general_full,  # some minutes; not among the tests
     "general_scenes": general_scenes,  # some minutes; not among the tests
     "hosts": hosts,
     "iterative": iterative,

@@ -1,12 +1,9 @@
 """General contact: `contact: all` names no pairs and no sides, and finds what named pairs would give."""
 
 import numpy as np
-from general_models import BOX, NONE, pile, shipped, strip
-from gears import scene as gears
+from general_models import BOX, NONE, shipped, strip
 from restart import same_bits
 from scene import write
-
-import yaml
 
 # The same sums in another order, and Newton's tolerance.
 SAME = 1e-10
@@ -60,12 +57,6 @@ def general(verdicts, driver):
     rigid(cases)
     refused(cases)
     same_bits(verdicts, driver, "three blocks, restarted", shipped("three_blocks"), (), lambda n: range(1, n))
-
-
-def general_full(verdicts, driver):
-    cases = Cases(verdicts, driver)
-    gear_train(cases)
-    soft_balls(cases)
 
 
 def three_blocks(cases):
@@ -243,21 +234,3 @@ def refused(cases):
     ):
         run = cases.run(f"refused_{label.replace(' ', '_')}", scene, expect=1, **more)
         cases.verdicts.true(f"refused: {label}", words in run.text, "the message says why")
-
-
-def gear_train(cases):
-    """Two gears whose flanks are not named."""
-    path = gears(cases.folder, 12, 8)
-    pairs = cases.run("gears_named", path)
-    scene = yaml.safe_load(path.read_text())
-    del scene["interfaces"], scene["contact"]
-    scene["contact"] = "all"
-    whole = cases.run("gears", write(scene, cases.folder / "gears_all.yaml"))
-    moments = [np.array([[np.abs(force).max() for force in step["moments"].values()] for step in run.steps]) for run in (whole, pairs)]
-    cases.verdicts.below("gears: moments against named flanks", np.abs(moments[0] - moments[1]).max() / np.abs(moments[1]).max(), OTHER_ROLES, "the mesh's error")
-
-
-def soft_balls(cases):
-    run = cases.run("pile", pile((4, 3)))
-    forces = np.array(list(run.summary["general_contact"]["forces"].values()))
-    cases.verdicts.below("a pile of soft balls: sum of all forces", np.abs(forces.sum(axis=0)).max() / np.abs(forces).max(), BALANCE, "balance")

@@ -55,34 +55,3 @@ def strip(folder, contact, steps=12):
         **contact,
     }
     return write(scene, folder / f"strip_{'all' if 'contact' in contact and contact['contact'] == 'all' else 'named'}.yaml")
-
-
-def pile(rows, **more):
-    """Soft balls in a bin, in rows of so many, pressed by a lid."""
-    radius, bodies, across = 0.5, {}, max(rows)
-    height = np.sqrt(3) / 2
-    for row, n in enumerate(rows):
-        for k in range(n):
-            x, y = k + 0.5 + (across - n) / 2, 0.5 + row * height
-            bodies[f"ball{row}{k}"] = {**BOX, "ball": [x, y], "lower": [x - radius, y - radius], "upper": [x + radius, y + radius],
-                                       "cells": [8, 8], "material": "neo_hooke"}
-    top = 1 + (len(rows) - 1) * height
-    stiff = {**BOX, "young": 1e5}
-    return {
-        "schema": 1,
-        "model": "plane_strain",
-        "bodies": ["bin", "left", "right", "lid", *bodies],
-        "bin": {**stiff, "lower": [-0.5, -0.3], "upper": [across + 0.5, 0], "cells": [24, 2]},
-        "left": {**stiff, "lower": [-0.3, 0.01], "upper": [0, top], "cells": [2, 16]},
-        "right": {**stiff, "lower": [across, 0.01], "upper": [across + 0.3, top], "cells": [2, 16]},
-        "lid": {**stiff, "lower": [0.05, top], "upper": [across - 0.05, top + 0.3], "cells": [20, 2]},
-        **bodies,
-        "supports": ["ground", "press"],
-        "ground": {"surface": ["bin.ymin", "left.xmin", "right.xmax"], "components": ["x", "y"]},
-        "press": {"surface": "lid.ymax", "components": ["x", "y"], "value": [0, -0.25]},
-        "contact": "all",
-        "friction": 0.2,
-        "steps": {"automatic": True, "initial": 0.02, "largest": 0.1},
-        "output": NONE,
-        **more,
-    }
