@@ -219,6 +219,11 @@ def rigid(cases):
     cases.verdicts.below("a rigid roller between plates: reactions against named pairs", apart(*runs), SAME, "the same roles")
 
 
+# A scene of heat that would pass between the bodies.
+WARM = {"heat": {"initial": 20}, "all": {"conductance_constant": 1, "conductance_reach": 1},
+        "block": {**falling()["block"], "conductivity": 1}, "base": {**falling()["base"], "conductivity": 1}}
+
+
 def refused(cases):
     for label, scene, words, more in (
         ("another word", falling(contact="some"), "contact: all", {}),
@@ -230,6 +235,7 @@ def refused(cases):
         ("displacements alone", falling(unknowns="displacements"), "multipliers among the unknowns", {}),
         ("dynamics", falling(dynamics={"rho_inf": 1}), "dynamics", {}),
         ("a key of sides", falling(all={"nonmortar": "block.ymin"}), "nonmortar", {}),
+        ("heat", {**falling(), **WARM}, "no heat passes", {}),
         ("two ranks", falling(), "one rank", {"ranks": 2}),
     ):
         run = cases.run(f"refused_{label.replace(' ', '_')}", scene, expect=1, **more)
