@@ -3072,7 +3072,7 @@ int32_t stickslip_skin_set_pair(struct stickslip_skin *skin,
 
 /// Directions in which displacement is prescribed on both sides of a contact (plane strain, symmetry planes), as
 /// `stickslip_interface_set_constraints`, for every copy of the nodes. Replaces all earlier ones; n = 0 clears. A copy whose normal lies in
-/// its directions has no multiplier. Pieces are made anew at t_n: make the plan again.
+/// its directions has no multiplier. Pieces are made anew at t_n: make the plan again; no commit can be undone after it.
 ///
 /// nodes (n): of the host, in the index base, a node up to twice; directions (3 n; of lines 2 n) [-].
 ///
