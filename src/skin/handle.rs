@@ -90,7 +90,7 @@ impl Skin {
         options.validate()?;
         let whole = Whole::new(given)?;
         let x = reference(&whole)?;
-        let rules = Rules { options, table: Table::default(), constraints: Vec::new() };
+        let rules = Rules { options, table: Table::default(), constraints: Vec::new(), declared: 0 };
         let (start, counts) = (Start { x, ..Start::default() }, Counts::default());
         let given = options.search_distance;
         let mut skin = Skin { whole, rules, held: Vec::new(), start, is_planned: false, counts, given, before: None };
@@ -162,9 +162,11 @@ impl Skin {
         // What is wrong with the directions themselves is told by the host's numbers, and before a piece has the nodes.
         free_directions(&memory::filled([0; 3], self.whole.nodes)?, &directions)?;
         let before = std::mem::replace(&mut self.rules.constraints, directions);
+        self.rules.declared += 1;
         let done = self.begin_anew(0.0);
         if done.is_err() {
             self.rules.constraints = before;
+            self.rules.declared -= 1;
         }
         done
     }

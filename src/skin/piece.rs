@@ -28,6 +28,8 @@ pub struct Rules {
     pub table: Table,
     /// Directions in which nodes of the host are prescribed.
     pub constraints: Vec<(usize, Vec3)>,
+    /// How often these have been declared: a piece that was made before has others.
+    pub declared: u64,
 }
 
 /// A piece and its interface.
@@ -41,6 +43,8 @@ pub struct Held {
     pub has_multiplier: Vec<bool>,
     /// Components of these that push on nothing that can move.
     pub idle: Vec<[bool; 3]>,
+    /// Of which declaration its constraints are.
+    pub declared: u64,
     /// Friction of its non-mortar nodes; empty: that of the options.
     mu: Vec<f64>,
     /// Its interface.
@@ -88,7 +92,16 @@ impl Held {
         if !declared.is_empty() {
             contact.set_constraints(&declared)?;
         }
-        Ok(Held { piece, copies, has_multiplier, idle, mu: Vec::new(), contact, room: Room::default() })
+        Ok(Held {
+            piece,
+            copies,
+            has_multiplier,
+            idle,
+            declared: rules.declared,
+            mu: Vec::new(),
+            contact,
+            room: Room::default(),
+        })
     }
 
     /// Friction by the bodies that its nodes are between, twice for [`Held::take_friction`]; `None`: it is as before. `near`: the
