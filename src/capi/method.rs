@@ -24,7 +24,7 @@ pub const STICKSLIP_SLIP_OBJECTIVE: i32 = 0;
 pub const STICKSLIP_SLIP_INCREMENT: i32 = 1;
 /// P g[n_n,x]: the paper's literal (12); drifts on curved interfaces.
 /// Not with (UNSUPPORTED): persistent weights (STICKSLIP_WEIGHTS_PERSISTENT); points that decide (STICKSLIP_DECISION_POINTS)
-/// and friction.
+/// and friction; wear or a bond (stickslip_layer).
 pub const STICKSLIP_SLIP_PAPER: i32 = 2;
 /// Of now; with STICKSLIP_DECISION_POINTS and friction, or an analytic surface, those of the last commit. Default.
 pub const STICKSLIP_WEIGHTS_AUTO: i32 = 0;
@@ -37,7 +37,7 @@ pub const STICKSLIP_WEIGHTS_REFERENCE: i32 = 3;
 /// Weights frozen at the last commit, and what overlaps there counts as closed: a step need not part it. The work of the contact forces over a
 /// step is then never positive, whatever slides and turns: for dynamics.
 /// Not with (UNSUPPORTED): the paper's slip measure (STICKSLIP_SLIP_PAPER); points that decide (STICKSLIP_DECISION_POINTS);
-/// offsets; derivatives by positions of t_n and by parameters.
+/// a layer between the surfaces (stickslip_interface_set_layer); offsets; derivatives by positions of t_n and by parameters.
 pub const STICKSLIP_WEIGHTS_PERSISTENT: i32 = 4;
 /// Of now, unless weights are frozen or the host gives normals: then of the last commit. Default.
 pub const STICKSLIP_NORMALS_AUTO: i32 = 0;
@@ -121,9 +121,9 @@ pub const STICKSLIP_DECISION_NODES: i32 = 0;
 /// friction and the paper's slip measure (STICKSLIP_SLIP_PAPER); standard multipliers (STICKSLIP_BASIS_STANDARD); persistent
 /// weights (STICKSLIP_WEIGHTS_PERSISTENT); the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps
 /// (method.element_points); nodes that others carry (weak_coverage > 0, the default of dual multipliers); an analytic mortar
-/// side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid nodes; a law of one's own; parts of an interface
-/// (owned has STICKSLIP_NODE_ELSEWHERE); nodes that handles share (owned has STICKSLIP_NODE_SHARED); condensation; heat;
-/// derivatives by positions of t_n and by parameters.
+/// side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid nodes; a law of one's own; a layer between the
+/// surfaces (stickslip_interface_set_layer); parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE); nodes that handles
+/// share (owned has STICKSLIP_NODE_SHARED); condensation; heat; derivatives by positions of t_n and by parameters.
 pub const STICKSLIP_DECISION_POINTS: i32 = 1;
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
 pub const STICKSLIP_ROW_SCALE_FORCE: i32 = 0;

@@ -351,6 +351,7 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact)
       continue;
     }
     PetscCall(PetscSNPrintf(interface->name, NAME_LENGTH, "%s", names[i]));
+    layer_read(scene, interface);
     law_read(scene, &contact->mesh->space, interface);
     mesh_rotate_vector(contact->mesh, interface->law.direction);
     read_effects(scene, interface);

@@ -76,11 +76,14 @@ int32_t verb_states(const ContactPart *of, const stickslip_states *wanted)
   const PetscInt d    = part->dimension, n = part->n1;
   double        *room, *one[] = {wanted->gap, wanted->coverage, wanted->area, wanted->dissipation, wanted->augmentation, wanted->share};
   double        *vectors[]    = {wanted->normal, wanted->traction, wanted->slip};
+  stickslip_states of_skin;
   int32_t        status;
   if (part->handle) return stickslip_interface_states(part->handle, STATE_OF(part), NULL, wanted);
   if (!skin) return STICKSLIP_OK;
   skin_point(part);
-  status = stickslip_skin_states(skin->handle, skin->x, skin->lambda, wanted);
+  of_skin      = *wanted;
+  of_skin.worn = of_skin.worn_volume = of_skin.damage = of_skin.bond_loss = NULL; /* of laws that a skin has not */
+  status = stickslip_skin_states(skin->handle, skin->x, skin->lambda, &of_skin);
   if (status) return status;
   PetscCallAbort(PETSC_COMM_SELF, PetscMalloc1(d * n, &room));
   for (size_t k = 0; k < sizeof(one) / sizeof(one[0]); k++)
