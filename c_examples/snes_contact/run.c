@@ -151,7 +151,7 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
     PetscCall(summary_step(&model->output, run->summary, run->step + 1, PETSC_TRUE, asked, last));
     PetscCall(energy_check(&model->output, &run->late, newton->why, sizeof(newton->why)));
     newton->refused_commit = (PetscBool)(newton->why[0] != 0);
-    if (!newton->why[0]) PetscCall(contact_commit(&model->contact, &refused));
+    if (!newton->why[0]) PetscCall(contact_commit(&model->contact, run->x, &refused));
     *done = (PetscBool)(!refused && !newton->why[0]);
     PetscCall(summary_settle_step(&model->output, run->summary, *done));
     if (refused) {
@@ -233,12 +233,25 @@ static PetscErrorCode give_up(Model *model, const Run *run, int *exit_code)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Where no step is short enough general contact may have other sides to offer: then it has not failed yet. */
+static PetscErrorCode exchange(Model *model, Run *run, PetscBool *failed)
+{
+  PetscBool any;
+  PetscFunctionBegin;
+  PetscCall(contact_exchange(&model->contact, run->past.last, &any));
+  if (!any) PetscFunctionReturn(PETSC_SUCCESS);
+  *failed               = PETSC_FALSE;
+  run->past.have_before = PETSC_FALSE;
+  step_size_anew(&model->solve.steps, &run->size);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode run(Model *model, int *exit_code)
 {
   Steps    *steps = &model->solve.steps;
   Run       run;
   PetscInt  status;
-  PetscBool failed, checked = PETSC_FALSE, done;
+  PetscBool failed, checked = PETSC_FALSE, done, again;
 
   PetscFunctionBegin;
   *exit_code = 0;
@@ -263,13 +276,18 @@ PetscErrorCode run(Model *model, int *exit_code)
         PetscCall(scene_root_end(model->scene));
         checked = PETSC_TRUE;
       }
+      run.again = PETSC_FALSE;
       step_size_accept(steps, &run.size, run.past.t_last, t, &model->solve.newton, times_bend(&model->physics, t));
       PetscCall(accept(model, &run));
       run.step++;
       PetscCall(restart_write(model, &run, (PetscBool)(t == steps->end)));
     } else {
+      PetscCall(contact_looks_anew(&model->contact, &again));
+      run.again = (PetscBool)(again && !run.again);
+      if (run.again) continue;
       run.n_cutbacks++;
       failed = (PetscBool)(run.late || !step_size_cut(steps, &run.size, t - run.past.t_last, &model->solve.newton));
+      if (failed && !run.late) PetscCall(exchange(model, &run, &failed));
     }
   }
   if (failed) {

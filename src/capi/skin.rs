@@ -72,9 +72,8 @@ fn check_vectors(vectors: &[Vec3], name: &str) -> Result<()> {
 /// each commit the library finds which facets may touch, gives them sides, and makes interfaces of them (docs/general_contact.md).
 ///
 /// surface: all outer facets of all bodies, seen from outside; equations as of an interface (-1 where prescribed);
-/// multiplier_equations and owned are NULL. Leave out cuts on planes of symmetry, and faces whose normal is a direction of
-/// `stickslip_skin_set_constraints`. bodies (n_facets): the number of each facet's body, whatever numbers; NULL: facets that hang
-/// together by nodes are one body, numbered from 0. A body whose skin falls apart, by a cavity or a cut that is left out, needs its number:
+/// multiplier_equations and owned are NULL. Leave out cuts on planes of symmetry. bodies (n_facets): the number of each facet's body,
+/// whatever numbers; NULL: facets that hang together by nodes are one body, numbered from 0. A body whose skin falls apart, by a cavity or a cut that is left out, needs its number:
 /// its walls are told by it. first_multiplier: the equation
 /// of the first multiplier, in the index base; all others follow it, so many as `stickslip_skin_copies` says.
 /// options: as of an interface; search_distance is how far the skin looks for partners (0: half of a facet, and twice the largest
@@ -212,12 +211,13 @@ pub unsafe extern "C" fn stickslip_skin_set_pair(skin: *mut stickslip_skin, body
 }
 
 /// Directions in which displacement is prescribed on both sides of a contact (plane strain, symmetry planes), as
-/// `stickslip_interface_set_constraints`, for every copy of the nodes. Replaces all earlier ones; n = 0 clears.
+/// `stickslip_interface_set_constraints`, for every copy of the nodes. Replaces all earlier ones; n = 0 clears. A copy whose normal lies in
+/// its directions has no multiplier. Pieces are made anew at t_n: make the plan again; no commit can be undone after it.
 ///
 /// nodes (n): of the host, in the index base, a node up to twice; directions (3 n; of lines 2 n) [-].
 ///
-/// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE, INVALID_VALUE, UNDEFINED_NORMAL.
-/// Cost: O(pieces' nodes times n); allocates.
+/// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE, INVALID_VALUE, and those of `stickslip_skin_commit`.
+/// Cost: O(pieces' nodes times n), a search, and new interfaces.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_skin_set_constraints(
     skin: *mut stickslip_skin,

@@ -47,6 +47,13 @@ const ALONE: OfCopy = OfCopy {
     share: 0.0,
 };
 
+/// A component of a multiplier that no piece has, and the area of its copy.
+struct Alone {
+    copy: usize,
+    component: usize,
+    area: f64,
+}
+
 /// Forces on the host's nodes, and the multipliers' rows.
 #[derive(Debug)]
 pub struct SkinResidual {
@@ -85,18 +92,27 @@ impl Skin {
             let own = copies[0].iter().zip(has_multiplier).zip(&found.rows);
             own.filter(|((_, has), _)| **has).for_each(|((&a, _), row)| rows[a] = *row);
         }
-        for (a, area) in self.alone()? {
-            rows[a] = -lambda[a] * area;
+        for Alone { copy, component, area } in self.alone()? {
+            rows[copy][component] = -lambda[copy][component] * area;
         }
         Ok(SkinResidual { forces, rows })
     }
 
-    /// The multipliers that no piece has, with the area of their copies: their rows say that they are 0.
-    fn alone(&self) -> Result<Vec<(usize, f64)>> {
-        let (claimed, mut alone) = (self.claimed()?, Vec::new());
-        for a in (0..claimed.len()).filter(|&a| !claimed[a] && is_there(&self.whole.multipliers[a])) {
-            let area = |&f: &usize| self.whole.areas[f] / self.whole.surface.host_nodes(f).len() as f64;
-            alone.store((a, self.whole.around.of(a).iter().map(area).sum()))?;
+    /// The multipliers that no piece has: their rows say that they are 0.
+    fn alone(&self) -> Result<Vec<Alone>> {
+        let n = self.whole.copies();
+        let mut has = memory::filled([false; 3], n)?;
+        for held in &self.held {
+            for (local, &a) in held.copies[0].iter().enumerate().filter(|(local, _)| held.has_multiplier[*local]) {
+                has[a] = held.idle[local].map(|idle| !idle);
+            }
+        }
+        let mut alone = Vec::new();
+        for copy in (0..n).filter(|&a| is_there(&self.whole.multipliers[a])) {
+            let of_facet = |&f: &usize| self.whole.areas[f] / self.whole.surface.host_nodes(f).len() as f64;
+            let area = self.whole.around.of(copy).iter().map(of_facet).sum();
+            let missing = (0..self.whole.components()).filter(|&i| !has[copy][i]);
+            alone.store_all(missing.map(|component| Alone { copy, component, area }))?;
         }
         Ok(alone)
     }
@@ -111,7 +127,7 @@ impl Skin {
             entries += contact.make_plan((&room.x[0], &room.x[1]), of)?;
         }
         self.is_planned = true;
-        Ok(entries + self.alone()?.len() * self.whole.components())
+        Ok(entries + self.alone()?.len())
     }
 
     /// How many entries the plan has.
@@ -123,7 +139,7 @@ impl Skin {
             let text = "the plan is not that of this step: what may touch has changed at the commit; make it again";
             return Err(Error::new(Kind::MissingEntry, text));
         }
-        let mut entries = self.alone()?.len() * self.whole.components();
+        let mut entries = self.alone()?.len();
         for held in &self.held {
             entries += held.contact.plan(PlanSystem::Whole)?.0.len();
         }
@@ -142,10 +158,10 @@ impl Skin {
                 columns.iter().try_for_each(|&column| take(row, column))
             })?;
         }
-        for (a, _) in alone {
-            self.whole.multipliers[a].iter().take(self.whole.components()).try_for_each(|&e| take(e, e))?;
-        }
-        Ok(())
+        alone
+            .into_iter()
+            .map(|Alone { copy, component, .. }| self.whole.multipliers[copy][component])
+            .try_for_each(|e| take(e, e))
     }
 
     /// The tangent in the order of the plan's entries.
@@ -160,10 +176,7 @@ impl Skin {
             let (contact, room) = held.at(&self.whole, x, lambda)?;
             contact.plan_values((&room.x[0], &room.x[1]), &room.lambda, None, own)?;
         }
-        let per = self.whole.components();
-        for ((_, area), values) in self.alone()?.into_iter().zip(rest.chunks_exact_mut(per)) {
-            values.fill(-area);
-        }
+        self.alone()?.into_iter().zip(rest).for_each(|(Alone { area, .. }, value)| *value = -area);
         Ok(())
     }
 

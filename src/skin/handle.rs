@@ -90,7 +90,7 @@ impl Skin {
         options.validate()?;
         let whole = Whole::new(given)?;
         let x = reference(&whole)?;
-        let rules = Rules { options, table: Table::default(), constraints: Vec::new() };
+        let rules = Rules { options, table: Table::default(), constraints: Vec::new(), declared: 0 };
         let (start, counts) = (Start { x, ..Start::default() }, Counts::default());
         let given = options.search_distance;
         let mut skin = Skin { whole, rules, held: Vec::new(), start, is_planned: false, counts, given, before: None };
@@ -161,13 +161,14 @@ impl Skin {
     pub fn set_constraints(&mut self, directions: Vec<(usize, Vec3)>) -> Result<()> {
         // What is wrong with the directions themselves is told by the host's numbers, and before a piece has the nodes.
         free_directions(&memory::filled([0; 3], self.whole.nodes)?, &directions)?;
-        let mut free = memory::with_room(self.held.len())?;
-        for held in &mut self.held {
-            free.store(held.constrained(&self.whole, &directions)?)?;
+        let before = std::mem::replace(&mut self.rules.constraints, directions);
+        self.rules.declared += 1;
+        let done = self.begin_anew(0.0);
+        if done.is_err() {
+            self.rules.constraints = before;
+            self.rules.declared -= 1;
         }
-        self.held.iter_mut().zip(free).for_each(|(held, free)| held.contact.constrain(free));
-        self.rules.constraints = directions;
-        Ok(())
+        done
     }
 
     /// Takes the pieces that t_n asks for, with room for a motion; none of them has been there before.
@@ -193,12 +194,6 @@ impl Skin {
     }
 
     /// Which copies have their multiplier in a piece.
-    pub(super) fn claimed(&self) -> Result<Vec<bool>> {
-        let mut claimed = memory::filled(false, self.whole.copies())?;
-        self.claim(&mut claimed);
-        Ok(claimed)
-    }
-
     pub(super) fn claim(&self, claimed: &mut [bool]) {
         for held in &self.held {
             held.copies[0].iter().zip(&held.has_multiplier).for_each(|(&a, &has)| claimed[a] |= has);

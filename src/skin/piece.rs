@@ -6,7 +6,7 @@ use super::roles::Role;
 use super::table::{Between, Table};
 use super::whole::Whole;
 use crate::error::Result;
-use crate::geometry::{Mat3, Vec3};
+use crate::geometry::Vec3;
 use crate::interface::{Interface, NO_EQUATION, Options, Surface};
 use crate::law::Coefficient;
 use crate::memory::{self, Store, Stored};
@@ -15,6 +15,9 @@ use crate::memory::{self, Store, Stored};
 const OPPOSED: f64 = -0.5;
 /// The sine of 20 degrees, half of a crease: a facet that rises more over another one beside it lies in front of it.
 const IN_FRONT: f64 = 0.34;
+
+/// The sine of a normal's angle with the directions in which its node is prescribed, below which it is one of them.
+const PRESCRIBED: f64 = 1e-6;
 
 /// What holds for all pieces of a skin.
 #[derive(Debug)]
@@ -25,6 +28,8 @@ pub struct Rules {
     pub table: Table,
     /// Directions in which nodes of the host are prescribed.
     pub constraints: Vec<(usize, Vec3)>,
+    /// How often these have been declared: a piece that was made before has others.
+    pub declared: u64,
 }
 
 /// A piece and its interface.
@@ -36,6 +41,10 @@ pub struct Held {
     pub copies: [Vec<usize>; 2],
     /// Which of its non-mortar nodes have multipliers.
     pub has_multiplier: Vec<bool>,
+    /// Components of these that push on nothing that can move.
+    pub idle: Vec<[bool; 3]>,
+    /// Of which declaration its constraints are.
+    pub declared: u64,
     /// Friction of its non-mortar nodes; empty: that of the options.
     mu: Vec<f64>,
     /// Its interface.
@@ -68,16 +77,31 @@ impl Held {
         }
         let roots = roots_of_folds(whole, &piece, [&copies[0], &copies[1]])?;
         has_multiplier.iter_mut().zip(&roots).for_each(|(has, is_root)| *has &= !is_root);
+        let idle = idle_components(whole, [&copies[0], &copies[1]])?;
+        for (local, &a) in copies[0].iter().enumerate() {
+            has_multiplier[local] &= !is_prescribed(whole, &piece, (a, idle[local]), &rules.constraints);
+        }
         let nonmortar = surface_of(whole, "nonmortar", sides[0], &copies[0])?;
         let mortar = surface_of(whole, "mortar", sides[1], &copies[1])?;
-        let equations = copies[0].iter().zip(&has_multiplier);
-        let equations = equations.map(|(&a, &has)| if has { whole.multipliers[a] } else { [NO_EQUATION; 3] });
+        let equations = copies[0].iter().zip(&has_multiplier).zip(&idle).map(|((&a, &has), idle)| {
+            let has = |i: usize| has && !idle[i];
+            std::array::from_fn(|i| if has(i) { whole.multipliers[a][i] } else { NO_EQUATION })
+        });
         let mut contact = Interface::new(nonmortar, mortar, equations.stored()?, options)?;
-        let declared = constraints_of(whole, &copies[0], &rules.constraints)?;
+        let declared = constraints_of(whole, (&copies[0], &has_multiplier), &rules.constraints)?;
         if !declared.is_empty() {
             contact.set_constraints(&declared)?;
         }
-        Ok(Held { piece, copies, has_multiplier, mu: Vec::new(), contact, room: Room::default() })
+        Ok(Held {
+            piece,
+            copies,
+            has_multiplier,
+            idle,
+            declared: rules.declared,
+            mu: Vec::new(),
+            contact,
+            room: Room::default(),
+        })
     }
 
     /// Friction by the bodies that its nodes are between, twice for [`Held::take_friction`]; `None`: it is as before. `near`: the
@@ -130,11 +154,6 @@ impl Held {
         self.contact.set_friction(of_contact)
     }
 
-    /// What directions leave free of each of its nodes.
-    pub fn constrained(&mut self, whole: &Whole, directions: &[(usize, Vec3)]) -> Result<Vec<Mat3>> {
-        self.contact.constrained(&constraints_of(whole, &self.copies[0], directions)?)
-    }
-
     /// Goes to its part of positions of the host's nodes and of multipliers of the copies, or of none.
     pub fn go_to(&mut self, whole: &Whole, x: &[Vec3], lambda: &[Vec3]) -> Result<()> {
         for (room, copies) in self.room.x.iter_mut().zip(&self.copies) {
@@ -143,8 +162,10 @@ impl Held {
         }
         self.room.lambda.clear();
         if !lambda.is_empty() {
-            let own = self.copies[0].iter().zip(&self.has_multiplier);
-            self.room.lambda.store_all(own.map(|(&a, &has)| if has { lambda[a] } else { Vec3::zeros() }))?;
+            let own = self.copies[0].iter().zip(&self.has_multiplier).zip(&self.idle);
+            self.room.lambda.store_all(
+                own.map(|((&a, &has), idle)| Vec3::from_fn(|i, _| if has && !idle[i] { lambda[a][i] } else { 0.0 })),
+            )?;
         }
         Ok(())
     }
@@ -187,10 +208,36 @@ fn surface_of(whole: &Whole, side: &'static str, facets: &[usize], copies: &[usi
     }
 }
 
-/// The directions that are declared of some copies, by their places.
-fn constraints_of(whole: &Whole, copies: &[usize], directions: &[(usize, Vec3)]) -> Result<Vec<(usize, Vec3)>> {
+/// Per non-mortar node the components of its multiplier that push on nothing that can move: it is prescribed itself, and so is all
+/// that may lie opposite. In such a component a matrix would be singular. Of lines the third one.
+fn idle_components(whole: &Whole, [one, two]: [&[usize]; 2]) -> Result<Vec<[bool; 3]>> {
+    let moves = |a: &usize, i: usize| whole.surface.equations[*a][i] != NO_EQUATION;
+    let opposite: [bool; 3] = std::array::from_fn(|i| two.iter().any(|b| moves(b, i)));
+    let is_idle = |a: &usize, i: usize| i >= whole.components() || !(opposite[i] || moves(a, i));
+    one.iter().map(|a| std::array::from_fn(|i| is_idle(a, i))).stored()
+}
+
+/// Whether the normal of a non-mortar node lies in directions in which it is prescribed, or nothing can move: it has none then, and no
+/// multiplier.
+fn is_prescribed(whole: &Whole, piece: &Piece, (a, idle): (usize, [bool; 3]), directions: &[(usize, Vec3)]) -> bool {
+    let own = whole.around.of(a).iter().filter(|f| piece.own.binary_search(f).is_ok());
+    let area = |f: usize| whole.surface.facet(f, &whole.surface.reference).area_vector();
+    let normal: Vec3 = own.flat_map(|&f| parts(whole, f)).map(area).sum();
+    let mut rest = Vec3::from_fn(|i, _| if idle[i] { 0.0 } else { normal[i] });
+    for (_, direction) in directions.iter().filter(|(node, _)| *node == whole.originals[a]) {
+        rest -= direction * (direction.dot(&rest) / direction.norm_squared());
+    }
+    rest != normal && rest.norm() <= PRESCRIBED * normal.norm()
+}
+
+/// The directions that are declared of some copies, by their places: of those that have multipliers.
+fn constraints_of(
+    whole: &Whole,
+    (copies, has): (&[usize], &[bool]),
+    directions: &[(usize, Vec3)],
+) -> Result<Vec<(usize, Vec3)>> {
     let mut declared = Vec::new();
-    for (local, &a) in copies.iter().enumerate() {
+    for (local, &a) in copies.iter().enumerate().filter(|(local, _)| has[*local]) {
         let of_node = directions.iter().filter(|(node, _)| *node == whole.originals[a]);
         declared.store_all(of_node.map(|&(_, direction)| (local, direction)))?;
     }

@@ -226,7 +226,10 @@ impl Skin {
         let (mut next, mut taken) = (memory::with_room(wanted.len())?, Vec::new());
         for Wanted { piece, partners } in wanted {
             let is_same = |held: &Held| {
-                held.piece.own == piece.own && has_all(&held.piece.mortar, &partners) && !self.holds_apart(&held.piece)
+                held.declared == self.rules.declared
+                    && held.piece.own == piece.own
+                    && has_all(&held.piece.mortar, &partners)
+                    && !self.holds_apart(&held.piece)
             };
             if let Some(k) = self.held.iter().position(is_same) {
                 next.store(Next::Kept(k))?;

@@ -40,9 +40,10 @@ def write(scene, path):
 
 def interfaces(scene):
     """The names of the interfaces of a scene, a file or the name of one in SCENES."""
-    path = scene if isinstance(scene, Path) else SCENES / f"{scene}.yaml"
-    listed = re.search(r"^\"?interfaces\"?: \[(.*?)\]", path.read_text(), re.MULTILINE | re.DOTALL)
-    return [name.strip(" \n\"") for name in listed[1].split(",")] if listed else []
+    text = (scene if isinstance(scene, Path) else SCENES / f"{scene}.yaml").read_text()
+    listed = re.search(r"^\"?interfaces\"?: \[(.*?)\]", text, re.MULTILINE | re.DOTALL)
+    names = [name.strip(" \n\"") for name in listed[1].split(",")] if listed else []
+    return names + ["all"] * bool(re.search(r"^\"?contact\"?: \"?all\b", text, re.MULTILINE))
 
 
 def weights(scene, name):

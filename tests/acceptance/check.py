@@ -19,6 +19,8 @@ from dynamics_mass import mass  # noqa: E402
 from effect_checks import effects  # noqa: E402
 from exact import exact, exact_friction, exact_gears, exact_rolling  # noqa: E402
 from friction_checks import friction  # noqa: E402
+from general import general  # noqa: E402
+from general_scenes import general_scenes  # noqa: E402
 from hosts import hosts  # noqa: E402
 from iterative import iterative, iterative_scenes  # noqa: E402
 from ironing import ironing, ironing_full  # noqa: E402
@@ -75,6 +77,8 @@ GROUPS = {
     "exact_gears": exact_gears,
     "exact_rolling": exact_rolling,
     "friction": friction,
+    "general": general,
+    "general_scenes": general_scenes,  # some minutes; not among the tests
     "hosts": hosts,
     "iterative": iterative,
     "iterative_scenes": iterative_scenes,

@@ -350,15 +350,19 @@ static void check_aids(void) {
   CHECK(memcmp(r, with, sizeof r) == 0);
   fixed[1] = SKIN_NODES;
   CHECK_REFUSED(stickslip_skin_set_constraints(s.skin, 2, fixed, across), STICKSLIP_INDEX_OUT_OF_RANGE, "nodes[1] is 16");
-  /* Along the normal nothing can be prescribed; what is refused has changed nothing, now or at a commit. */
+  /* A copy whose normal is prescribed has no multiplier. */
   for (int n = 0; n < 2; ++n) {
     across[3 * n] = across[3 * n + 1] = 0.0, across[3 * n + 2] = 1.0;
     scene_frame(across + 3 * n);
   }
   fixed[1] = CUBE_NODES;
-  CHECK_REFUSED(stickslip_skin_set_constraints(s.skin, 2, fixed, across), STICKSLIP_UNDEFINED_NORMAL, "node");
+  CHECK_OK(stickslip_skin_set_constraints(s.skin, 2, fixed, across));
+  skin_residual(&s, with);
+  CHECK(memcmp(r, with, sizeof r) != 0);
+  CHECK_OK(stickslip_skin_set_constraints(s.skin, 0, NULL, NULL));
   skin_residual(&s, with);
   CHECK(memcmp(r, with, sizeof r) == 0);
+  /* What is refused has changed nothing, now or at a commit. */
   across[3] = across[4] = across[5] = 0.0;
   CHECK_REFUSED(stickslip_skin_set_constraints(s.skin, 2, fixed, across), STICKSLIP_INVALID_VALUE, "constraint 1 has length 0");
   CHECK_OK(stickslip_skin_set_pair(s.skin, LOWER_BODY, UPPER_BODY, STICKSLIP_SKIN_APART));

@@ -4,7 +4,7 @@ use crate::bodies::*;
 use crate::support::mesh::{Random, numbered};
 use stickslip::geometry::Vec3;
 use stickslip::interface::{Interface, NO_EQUATION, Surface};
-use stickslip::skin::Skin;
+use stickslip::skin::{Given, Skin};
 
 /// Sums of a skin go over the same numbers in another order.
 const ROUNDING: f64 = 1e-13;
@@ -146,4 +146,61 @@ fn the_tangent_is_the_derivative_of_the_residual() {
             assert!(error <= DIFFERENCES * scale, "{name}: {error:e} of {scale:e}");
         }
     }
+}
+
+/// A stack whose nodes have these components of displacement alone.
+fn partly_held(moves: [bool; 3]) -> (Mesh, Skin) {
+    let mesh = stack(1e-3, false);
+    let equation = |a: usize, i: usize| if moves[i] { (3 * a + i) as i64 } else { NO_EQUATION };
+    let equations = (0..mesh.x.len()).map(|a| [0, 1, 2].map(|i| equation(a, i))).collect();
+    let skin = Skin::new(Given { equations, ..given(&mesh, false) }, options(0.3)).unwrap();
+    (mesh, skin)
+}
+
+/// A component that nothing can move on either side has a row that says it is 0, as other copies have that touch nothing: the matrix would
+/// be singular.
+#[test]
+fn a_multiplier_that_pushes_on_nothing_is_zero() {
+    for (moves, held) in [([true, false, true], 1), ([true, true, false], 2)] {
+        let (mesh, mut skin) = partly_held(moves);
+        let (x, lambda) = somewhere(&skin, &mesh, 2e-3, 1);
+        let found = skin.residual(&x, &lambda).unwrap();
+        let mut other = lambda.clone();
+        other.iter_mut().for_each(|l| l[held] *= 2.0);
+        let again = skin.residual(&x, &other).unwrap();
+        assert_eq!(found.forces, again.forces, "component {held} presses on nothing");
+        for (a, (row, twice)) in found.rows.iter().zip(&again.rows).enumerate() {
+            assert_eq!(2.0 * row[held], twice[held], "copy {a}");
+            assert!(row[held] * lambda[a][held] < 0.0 || lambda[a][held] == 0.0, "copy {a}: {row} for {}", lambda[a]);
+        }
+        skin.make_plan(&x, false).unwrap();
+        let mut diagonal = vec![0; mesh.x.len() * 3 + 3 * skin.whole().copies()];
+        skin.plan_entries(&mut |row, column| {
+            diagonal[row as usize] += i32::from(row == column);
+            Ok(())
+        })
+        .unwrap();
+        for equations in &skin.whole().multipliers {
+            assert_eq!(diagonal[equations[held] as usize], 1);
+        }
+    }
+}
+
+/// A copy whose normal is a prescribed direction has no multiplier: a normal in the directions that are left there would be none.
+#[test]
+fn a_copy_whose_normal_is_prescribed_has_no_multiplier() {
+    let mesh = stack(1e-3, false);
+    let mut skin = skin(&mesh, options(0.3));
+    let (x, lambda) = somewhere(&skin, &mesh, 2e-3, 1);
+    let touching = skin.residual(&x, &lambda).unwrap();
+    assert!(touching.forces.iter().any(|f| f.norm() > 0.01));
+    let vertical = |a: usize| (a, Vec3::z());
+    skin.set_constraints((0..mesh.x.len()).map(vertical).collect()).unwrap();
+    let found = skin.residual(&x, &lambda).unwrap();
+    assert!(found.forces.iter().all(|f| *f == Vec3::zeros()));
+    skin.set_constraints((0..mesh.x.len()).map(|a| (a, Vec3::y())).collect()).unwrap();
+    let along = skin.residual(&x, &lambda).unwrap();
+    assert!(along.forces.iter().any(|f| f.norm() > 0.01));
+    skin.set_constraints(Vec::new()).unwrap();
+    assert_eq!(skin.residual(&x, &lambda).unwrap().forces, touching.forces);
 }

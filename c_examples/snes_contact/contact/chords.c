@@ -77,7 +77,7 @@ static PetscErrorCode measure_gaps(const ContactPart *part, PetscReal gaps[2])
   gaps[0] = gaps[1] = PETSC_MIN_REAL;
   PetscCall(PetscMalloc1(N_RESULTS * part->n1, &results));
   PetscCall(contact_results(part, results));
-  for (PetscInt a = 0; a < part->n1 && part->handle; a++) {
+  for (PetscInt a = 0; a < part->n1 && verb_there(part); a++) {
     const double   *result = results + N_RESULTS * a;
     const PetscReal gap    = result[RESULT_GAP] / result[RESULT_COVERAGE];
     if (part->owned[a] != STICKSLIP_NODE_OWN || !(result[RESULT_COVERAGE] > 0)) continue;

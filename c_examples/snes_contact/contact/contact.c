@@ -1,6 +1,6 @@
 /* The binding to the contact library. Each rank drives its part of an interface: positions and multipliers of the part's
  * nodes are gathered from their owners, forces are sent back and added. */
-#include "contact/contact.h"
+#include "contact/skin.h"
 
 /* Adds the forces of all parts to f_local, and once a node their squares to those of the model's parts, and what passes between the sides. */
 static PetscErrorCode add_forces(Physics *physics, Interface *interface, Vec f_local)
@@ -37,9 +37,7 @@ PetscErrorCode contact_forces(Contact *contact, Vec f_local, PetscInt *status)
     if (*status) break;
     PetscCall(contact_gather(contact, interface, contact->physics->u_local));
     part->processor -= work_clock();
-    if (part->handle)
-      refused = stickslip_interface_residual(part->handle, STATE_OF(part), NULL, part->forces,
-                                             MORTAR_OF(part, part->forces), MULTIPLIERS_OF(part, part->forces));
+    refused = verb_residual(part);
     part->processor += work_clock();
     PetscCall(contact_agree(contact, interface, refused, status));
     if (!*status) PetscCall(add_forces(contact->physics, interface, f_local));
@@ -60,8 +58,7 @@ PetscErrorCode contact_start(Contact *contact, Vec x, PetscInt *status)
     ContactPart *part      = &interface->part;
     int32_t      refused   = 0;
     PetscCall(contact_gather(contact, interface, physics->u_local));
-    if (part->handle && interface->initial_contact)
-      refused = stickslip_interface_initial_multipliers(part->handle, MULTIPLIERS_OF(part, part->gathered));
+    if (interface->initial_contact) refused = verb_initial_multipliers(part, MULTIPLIERS_OF(part, part->gathered));
     PetscCall(contact_agree(contact, interface, refused, status));
     if (!*status) PetscCall(kept_tell(contact, interface));
     if (!*status) PetscCall(chords_tell(interface));
@@ -87,9 +84,8 @@ static PetscErrorCode renew_on_the_way(Contact *contact, PetscInt number, Vec st
   PetscCall(DMRestoreLocalVector(contact->mesh->dm, &to));
   *refused = (int32_t)status;
   PetscCall(contact_gather(contact, &contact->interfaces[number], contact->physics->u_local));
-  if (*refused || before == contact->interfaces[number].n_grown || !part->handle) PetscFunctionReturn(PETSC_SUCCESS);
-  *refused = stickslip_interface_residual(part->handle, STATE_OF(part), NULL, part->forces, MORTAR_OF(part, part->forces),
-                                          MULTIPLIERS_OF(part, part->forces));
+  if (*refused || before == contact->interfaces[number].n_grown) PetscFunctionReturn(PETSC_SUCCESS);
+  *refused = verb_residual(part);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -104,8 +100,7 @@ PetscErrorCode contact_step_limit(Contact *contact, PetscInt number, Vec step, P
   PetscCall(renew_on_the_way(contact, number, step, &refused));
   PetscCall(PetscMalloc1(part->dimension * (part->n1 + part->n2) + part->components * part->n1, &dx));
   PetscCall(contact_fetch(part->sf, step, dx));
-  if (refused || (part->handle && stickslip_interface_step_limit(part->handle, part->x, MORTAR_OF(part, part->x), dx,
-                                                     MORTAR_OF(part, dx), depth, &answer[0])))
+  if (refused || verb_step_limit(part, dx, depth, &answer[0]))
     answer[1] = 0;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, answer, 2, MPIU_REAL, MPIU_MIN, PETSC_COMM_WORLD));
   PetscCall(PetscFree(dx));
@@ -185,8 +180,8 @@ static PetscErrorCode commit(Contact *contact, Interface *interface, PetscBool *
   }
   if (part->handle && !refused && interface->n_parts > 1) refused = keep_slip(part);
   part->processor -= work_clock();
-  if (part->handle && !refused) {
-    refused = stickslip_interface_commit(part->handle, STATE_OF(part), NULL);
+  if (verb_there(part) && !refused) {
+    refused = verb_commit(part);
     *done   = (PetscBool)!refused;
   }
   part->processor += work_clock();
@@ -195,7 +190,7 @@ static PetscErrorCode commit(Contact *contact, Interface *interface, PetscBool *
 }
 
 /* All interfaces accept the step on all ranks, or none: what was committed beside a refusal is rolled back. */
-PetscErrorCode contact_commit(Contact *contact, PetscInt *status)
+PetscErrorCode contact_commit(Contact *contact, Vec x, PetscInt *status)
 {
   PetscBool *done;
   PetscFunctionBegin;
@@ -204,9 +199,12 @@ PetscErrorCode contact_commit(Contact *contact, PetscInt *status)
   for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++)
     PetscCall(commit(contact, &contact->interfaces[i], &done[i], status));
   for (PetscInt i = 0; i < contact->n_interfaces && *status; i++) {
-    if (done[i]) PetscCallStickslip(stickslip_interface_rollback(contact->interfaces[i].part.handle));
+    if (done[i]) PetscCallStickslip(verb_rollback(&contact->interfaces[i].part));
   }
   if (!*status) PetscCall(settle(contact));
+  for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
+    if (contact->interfaces[i].part.skin) PetscCall(skin_hand_over(contact, &contact->interfaces[i], x));
+  }
   PetscCall(PetscFree(done));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -26,6 +26,10 @@ typedef struct {
 /* Rigid bodies in a part (rigid_part.c) */
 typedef struct RigidPart RigidPart;
 
+/* General contact (skin.h): what the scene says of it, and the library's handle of it */
+typedef struct Skin Skin;
+typedef struct SkinPart SkinPart;
+
 /* A rank's part of an interface, with a handle of the library's own (parts.c): the non-mortar nodes that the rank owns, the
  * facets around them as far as these need them, and the mortar facets that may come near. Nodes and facets are numbered as they are here. */
 typedef struct {
@@ -50,6 +54,7 @@ typedef struct {
   PetscSF      owners;             /* from the non-mortar nodes of all ranks to the nodes here that others own */
   PetscSF      homes;              /* from their owners to the interface's nodes at home */
   stickslip_interface *handle;
+  SkinPart            *skin;       /* in its place, of general contact */
   /* condensed.c: multipliers, now and at the start of the step, of the last two; as `forces`, those of bodies and loads
    * and what condensing adds to the residual; where the last matrix was made, the former and the positions */
   double  *lambda, *lambda_start, *lambda_last, *lambda_before, *host, *rows, *host_there, *x_there;
@@ -100,6 +105,7 @@ typedef struct {
 /* One contact interface: what the scene says of it, this rank's part, and what is known of the nodes that are at home here. */
 typedef struct {
   char           name[NAME_LENGTH];
+  Skin          *skin;       /* NULL: its two sides are named */
   Surface        share[2];   /* non-mortar, mortar: the faces dealt out to this rank; vertices are numbers of nodes of the side */
   const Surface *surface[2]; /* these */
   PetscInt       n1, n2;     /* nodes that are at home on this rank, see homes.c: so is all that follows up to `options` */
@@ -222,6 +228,7 @@ PetscLogDouble homes_bytes(const Interface *interface); /* that this rank keeps 
 PetscErrorCode weak_choose(Interface *interface, PetscBool created, PetscBool *chosen);
 
 /* symmetry.c: of the non-mortar nodes */
+PetscErrorCode symmetry_walls(const Physics *physics, PetscInt axes[], PetscReal *tolerance);
 PetscErrorCode symmetry_mask(const Physics *physics, const Interface *interface, PetscInt mask[]);
 
 /* reach.c: of the model's parts, over all that interfaces may join to them */
@@ -282,6 +289,25 @@ PetscErrorCode halo_covers(const Interface *interface, const Vec ends[2], PetscR
 void           halo_forget(Halo *halo);
 PetscErrorCode halo_end(Halo *halo);
 PetscErrorCode halo_destroy(Halo *halo);
+
+/* verbs.c: what is asked of the handle of a part, of two sides or of a skin; the library's status */
+PetscBool verb_there(const ContactPart *part); /* is there one? */
+PetscInt  verb_opposite(const ContactPart *part, PetscInt a); /* of a skin, where it lies near another node; -1: there is none */
+int32_t   verb_residual(ContactPart *part);
+int32_t   verb_initial_multipliers(ContactPart *part, double lambda[]);
+int32_t   verb_step_limit(ContactPart *part, const double dx[], double depth, double *fraction);
+int32_t   verb_states(const ContactPart *part, const stickslip_states *wanted);
+int32_t   verb_equilibrium(ContactPart *part, stickslip_equilibrium *e);
+int32_t   verb_plan(ContactPart *part, int32_t pairs, int64_t *count);
+int32_t   verb_plan_coo(ContactPart *part);
+int32_t   verb_plan_values(ContactPart *part);
+int32_t   verb_use_normals(ContactPart *part, int32_t normals);
+int32_t   verb_turn_multipliers(ContactPart *part, double lambda[]);
+int32_t   verb_commit(ContactPart *part);
+int32_t   verb_rollback(ContactPart *part);
+int32_t   verb_history_size(const ContactPart *part, int64_t n[2]);
+int32_t   verb_history_export(const ContactPart *part, const int64_t n[2], int64_t integers[], double reals[]);
+int32_t   verb_history_import(ContactPart *part, const int64_t n[2], const int64_t integers[], const double reals[]);
 
 /* part.c */
 PetscErrorCode part_create(Contact *contact, PetscInt number, PetscInt n, const Vec ways[][2]);
@@ -359,7 +385,19 @@ PetscErrorCode contact_scatter(const ContactPart *part, const PetscScalar *from,
 /* contact.c */
 PetscErrorCode contact_start(Contact *contact, Vec x, PetscInt *status);
 PetscErrorCode contact_forces(Contact *contact, Vec f_local, PetscInt *status); /* adds, to the parts' squares, too */
-PetscErrorCode contact_commit(Contact *contact, PetscInt *status);
+PetscErrorCode contact_commit(Contact *contact, Vec x, PetscInt *status); /* in x multipliers may change, of general contact */
+/* skin.c: of node a of the part, by what lies opposite in a skin */
+PetscReal contact_friction(const Mesh *mesh, const Interface *interface, PetscInt a);
+/* joints.c: bodies that contact joins at these states of all interfaces' nodes at home, or could; to be freed */
+typedef struct {
+  PetscInt  bodies[2];
+  PetscBool joined;
+} Joint;
+
+PetscErrorCode contact_joints(const Contact *contact, const int32_t states[], PetscInt *n, Joint **joints);
+/* again.c */
+PetscErrorCode contact_looks_anew(Contact *contact, PetscBool *anew);
+PetscErrorCode contact_exchange(Contact *contact, Vec x, PetscBool *any);
 /* the fraction of a step that one interface allows, which leads `depth` deep at most; `step`: local, of u_local */
 PetscErrorCode contact_step_limit(Contact *contact, PetscInt number, Vec step, PetscReal depth, PetscReal *fraction);
 

@@ -1,5 +1,5 @@
 /* Interfaces as the scene describes them: surfaces, law, form, and which multiplier components are unknowns at all. */
-#include "contact/contact.h"
+#include "contact/skin.h"
 
 /* E of the softest body that an interface's nodes belong to; and the modulus where it cannot widen of the softer side, each taken as its stiffest
  * body. What is wholly prescribed is rigid. */
@@ -89,12 +89,14 @@ static PetscErrorCode settle_nodes(Scene *scene, Contact *contact, Interface *in
    * where a plane of symmetry cuts both. */
   for (PetscInt b = 0; b < n2; b++)
     mortar_mask &= interface->prescribed[n1 + b];
+  for (PetscInt a = 0; a < n1 && interface->skin; a++) /* any node may lie opposite */
+    mortar_mask &= interface->prescribed[a];
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &mortar_mask, 1, MPIU_INT, MPI_BAND, PETSC_COMM_WORLD));
   if (interface->options.mortar_side == STICKSLIP_MORTAR_RIGID && mortar_mask != 7)
     scene_fail(scene, interface->name, "mortar_side", "'%s' is not rigid: support all of it in %s.", interface->surface[1]->name,
                mesh->dimension == 3 ? "x, y and z" : "x and y");
   describe_analytic(scene, interface);
-  check_rigid(scene, contact, interface);
+  if (!interface->skin) check_rigid(scene, contact, interface);
   PetscCall(PetscMalloc2(n1, &interface->removed, n1, &interface->has_been));
   PetscCall(PetscCalloc1(n1, &interface->middle));
   for (PetscInt a = 0; a < n1; a++)
@@ -290,14 +292,17 @@ static PetscErrorCode read_nodes(Scene *scene, Contact *contact, Interface *inte
   PetscFunctionBegin;
   PetscCall(surfaces_read(scene, contact, interface));
   PetscCall(PetscCalloc1(interface->n1, &symmetry));
-  PetscCall(symmetry_mask(contact->physics, interface, symmetry));
+  if (interface->skin) PetscCall(skin_symmetry(interface, symmetry));
+  else PetscCall(symmetry_mask(contact->physics, interface, symmetry));
   PetscCall(settle_nodes(scene, contact, interface, symmetry));
   scene_real(scene, interface->name, "augmentation_scale", &scale);
   if (scale <= 0) scene_fail(scene, interface->name, "augmentation_scale", "it must be positive.");
   interface->method.augmentation *= scale;
   interface->options.modulus *= scale;
-  PetscCall(offsets_place(scene, interface));
-  PetscCall(contact_adjust(scene, contact->mesh, interface));
+  if (!interface->skin) {
+    PetscCall(offsets_place(scene, interface));
+    PetscCall(contact_adjust(scene, contact->mesh, interface));
+  }
   if (interface->offsets.adjust > 0) PetscCall(surfaces_move(contact, interface));
   PetscCall(PetscFree(symmetry));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -324,18 +329,28 @@ static PetscErrorCode refuse_twice(Scene *scene, const Contact *contact, PetscIn
 
 PetscErrorCode contact_read(Scene *scene, Contact *contact)
 {
-  const PetscBool paper = read_paper(scene);
+  const PetscBool paper = read_paper(scene), skin = skin_wanted(scene);
   char          **names;
+  PetscInt        n_named;
 
   PetscFunctionBegin;
   read_unknowns(scene, contact);
-  scene_names(scene, "interfaces", &contact->n_interfaces, &names);
+  scene_names(scene, "interfaces", &n_named, &names);
+  contact->n_interfaces = n_named + skin; /* the skin is the last one */
   PetscCall(PetscCalloc1(contact->n_interfaces, &contact->interfaces));
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     Interface *interface = &contact->interfaces[i];
-    PetscCall(PetscSNPrintf(interface->name, NAME_LENGTH, "%s", names[i]));
     PetscCall(begin_options(paper, interface));
     read_model(&contact->mesh->space, interface);
+    if (i == n_named) {
+      PetscCall(skin_read(scene, contact, interface));
+      read_method(scene, interface);
+      interface->lag_corrects = PETSC_FALSE;
+      PetscCallStickslip(stickslip_options_method(&interface->options, &interface->method));
+      read_accuracy(scene, interface);
+      continue;
+    }
+    PetscCall(PetscSNPrintf(interface->name, NAME_LENGTH, "%s", names[i]));
     layer_read(scene, interface);
     law_read(scene, &contact->mesh->space, interface);
     mesh_rotate_vector(contact->mesh, interface->law.direction);
@@ -346,7 +361,7 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact)
     read_accuracy(scene, interface);
     PetscCall(offsets_read(scene, contact->physics, interface));
   }
-  strings_destroy(contact->n_interfaces, &names);
+  strings_destroy(n_named, &names);
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     PetscCall(read_nodes(scene, contact, &contact->interfaces[i]));
     PetscCall(refuse_twice(scene, contact, i));

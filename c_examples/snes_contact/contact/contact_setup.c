@@ -1,5 +1,5 @@
 /* Creating and destroying interfaces: who owns which nodes, and what is wrong at the start. */
-#include "contact/contact.h"
+#include "contact/skin.h"
 
 /* Surfaces that lie over each other but are no pair would be passed through without a word. Where any pair has been found
  * there is nothing to ask. A handle of its own is asked, so that the other's counters stay what they are. The first part that
@@ -64,15 +64,16 @@ static PetscErrorCode has_middles(const Mesh *mesh, const Interface *interface, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* of the mortar side's facets on all ranks */
+/* of the mortar side's facets on all ranks, of a skin of all */
 static PetscErrorCode longest_edge(const Interface *interface, PetscReal *longest)
 {
-  const Surface *surface = interface->surface[1];
+  const int      side    = interface->skin ? 0 : 1;
+  const Surface *surface = interface->surface[side];
   double        *x;
   PetscFunctionBegin;
   *longest = 0;
   PetscCall(PetscMalloc1(3 * (surface->analytic ? 0 : surface->offsets[surface->n_faces]), &x));
-  PetscCall(homes_bcast(interface->corners[1], 3, interface->place, x));
+  PetscCall(homes_bcast(interface->corners[side], 3, interface->place, x));
   for (PetscInt f = 0; f < surface->n_faces; f++) {
     const PetscInt first = surface->offsets[f], n = surface->offsets[f + 1] - first;
     for (PetscInt k = 0; k < n; k++) {
@@ -95,7 +96,7 @@ static PetscErrorCode look_at_surfaces(const Mesh *mesh, Interface *interface)
   PetscFunctionBegin;
   PetscCall(longest_edge(interface, &interface->longest_edge));
   PetscCall(has_middles(mesh, interface, &interface->middles));
-  interface->uncut  = (PetscBool)(interface->dimension == 2 || interface->surface[1]->analytic || interface->middles);
+  interface->uncut  = (PetscBool)(interface->dimension == 2 || interface->skin || interface->surface[1]->analytic || interface->middles);
   interface->frozen = (PetscBool)(method->weights == STICKSLIP_WEIGHTS_REFERENCE || options->friction == STICKSLIP_FRICTION_TIED);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -139,7 +140,9 @@ static PetscErrorCode create_library(Contact *contact, Interface *interface, Pet
   int32_t      refused = 0;
   PetscBool    condenses = PETSC_FALSE; /* it is that which was refused */
   PetscFunctionBegin;
-  if (part->n1) {
+  if (part->n1 && interface->skin) {
+    PetscCall(skin_part_create(contact, interface, &refused));
+  } else if (part->n1) {
     PetscCall(part_handle(part, &interface->options, &part->handle, &refused));
     if (!refused) refused = offsets_set(interface, part->handle, 0);
     if (!refused) refused = law_set(interface, part->handle);
@@ -237,7 +240,7 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
     if (size > 1 && !interface->uncut) PetscCall(halo_watch(contact, interface));
     PetscCall(create_parts(contact, i, status));
     if (*status) break;
-    PetscCall(check_facing(scene, quiet, interface, mesh->rank));
+    if (!interface->skin) PetscCall(check_facing(scene, quiet, interface, mesh->rank));
     if (interface->blunted && !quiet)
       PetscCall(PetscPrintf(PETSC_COMM_WORLD,
                             "%s: '%s' has sharp edges, and with `crease_angle: 0` their nodes have one normal for both sides: forces are wrong "
@@ -260,6 +263,7 @@ PetscErrorCode contact_destroy(Contact *contact)
     PetscCall(PetscSFDestroy(&interface->sf));
     PetscCall(contact_states_destroy(&interface->states));
     PetscCall(offsets_destroy(interface));
+    PetscCall(skin_destroy(interface));
     PetscCall(PetscFree4(interface->X, interface->displacements, interface->forces, interface->equations));
     PetscCall(PetscFree(interface->owner));
     PetscCall(surfaces_destroy(interface));

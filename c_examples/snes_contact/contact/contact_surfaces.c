@@ -1,6 +1,6 @@
 /* The surfaces of an interface, from the pieces of the mesh dealt out to all ranks: faces, nodes, where these are and what is prescribed
  * there. */
-#include "contact/contact.h"
+#include "contact/skin.h"
 
 /* A vertex has a node of one side only. */
 static PetscErrorCode check_apart(Scene *scene, const Mesh *mesh, const Interface *interface)
@@ -37,6 +37,7 @@ static PetscErrorCode find_bodies(const Mesh *mesh, Interface *interface)
     PetscInt k = side ? interface->n1 : 0, body = -1;
     if (interface->first[side] == 0 && (side ? interface->n2 : interface->n1) > 0) body = mesh_body_of(mesh, interface->nodes[k]);
     PetscCallMPI(MPI_Allreduce(&body, &interface->body[side], 1, MPIU_INT, MPI_MAX, PETSC_COMM_WORLD));
+    if (interface->skin) interface->body[side] = interface->body[0]; /* which has all bodies */
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -140,11 +141,18 @@ static PetscErrorCode forget_nodes(Interface *interface)
 PetscErrorCode surfaces_read(Scene *scene, Contact *contact, Interface *interface)
 {
   const Mesh    *mesh = contact->mesh;
-  const Surface *found[2];
+  PetscInt       none    = 0;
+  const Surface  nothing = {.name = "nothing", .offsets = &none}, *found[2];
   TimedSides     sides;
   PetscInt      *nodes[2], *split;
   PetscFunctionBegin;
-  PetscCall(find(scene, mesh, interface, found));
+  if (interface->skin) {
+    PetscCall(skin_find(scene, contact, interface));
+    found[0] = &interface->skin->outer;
+    found[1] = &nothing;
+  } else {
+    PetscCall(find(scene, mesh, interface, found));
+  }
   sides = (TimedSides){interface->name, {found[0], found[1]}, (PetscBool)(interface->components == 1), contact->condensed};
   PetscCall(timed_refuse(scene, contact->physics, &sides));
   for (int side = 0; side < 2; side++) {

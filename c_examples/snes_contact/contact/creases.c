@@ -1,6 +1,7 @@
 /* Sharp edges of the non-mortar surface: the library lists a node there once for each side (docs/host_edges.md), and each copy has a
  * normal and multipliers of its own. Every rank asks it about the nodes that are at home here, with the facets around them. */
 #include "contact/packet.h"
+#include "contact/skin.h"
 
 /* What is an edge where the scene does not say: facets of a circle of ten meet at 36 degrees. */
 static const PetscReal CREASE_ANGLE = 40;
@@ -138,7 +139,8 @@ PetscErrorCode creases_split(Scene *scene, const Contact *contact, Interface *in
   PetscInt      *copies, *here, creased = 0;
   PetscFunctionBegin;
   *nodes = NULL;
-  scene_real(scene, interface->name, "crease_angle", &angle);
+  if (interface->skin) angle = SKIN_CREASE;
+  else scene_real(scene, interface->name, "crease_angle", &angle);
   if (angle < 0 || angle >= 180) scene_fail(scene, interface->name, "crease_angle", "it is in degrees: from 0 (no node is split) to below 180.");
   if (interface->options.friction == STICKSLIP_FRICTION_TIED) PetscFunctionReturn(PETSC_SUCCESS); /* which way nothing moves does not matter */
   PetscCall(deal(mesh, interface, &part));

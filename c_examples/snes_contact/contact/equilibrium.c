@@ -53,8 +53,8 @@ static PetscErrorCode measure(Interface *interface, PetscBool *refused)
   PetscFunctionBegin;
   for (int pass = 0; pass < (interface->n_parts > 1 ? 2 : 1); pass++) {
     *e = (stickslip_equilibrium){.struct_size = sizeof(*e), .modulus = interface->young, .least_traction = found[1]};
-    if (part->handle && !found[0]) {
-      found[0] = stickslip_interface_equilibrium(part->handle, STATE_OF(part), NULL, e) != 0;
+    if (verb_there(part) && !found[0]) {
+      found[0] = verb_equilibrium(part, e) != 0;
       found[1] = e->traction_scale;
     }
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, found, 2, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
@@ -81,7 +81,7 @@ PetscErrorCode equilibrium_judge(Contact *contact, PetscReal rtol, PetscBool *ho
     PetscBool  refused = PETSC_FALSE;
     PetscCall(measure(interface, &refused));
     if (refused) *holds = PETSC_FALSE;
-    if (refused || !interface->part.handle || within(tolerance, &interface->equilibrium)) continue;
+    if (refused || !verb_there(&interface->part) || within(tolerance, &interface->equilibrium)) continue;
     *holds = PETSC_FALSE;
     ratio  = worst(tolerance, interface, words, sizeof(words));
     if (ratio <= largest) continue;

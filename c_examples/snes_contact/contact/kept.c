@@ -56,7 +56,7 @@ static PetscErrorCode measure(const Mesh *mesh, const Interface *interface, Over
   PetscCall(PetscCalloc1(part->n1, &edges));
   PetscCall(contact_results(part, results));
   longest_edges(part, edges);
-  for (PetscInt a = 0; a < part->n1 && part->handle; a++) {
+  for (PetscInt a = 0; a < part->n1 && verb_there(part); a++) {
     const double   *result = results + N_RESULTS * a;
     const PetscReal mean   = result[RESULT_COVERAGE] > 0 ? -result[RESULT_GAP] / result[RESULT_COVERAGE] : 0;
     const PetscReal depth  = is_tied(interface) ? PetscAbsReal(mean) : mean;

@@ -34,10 +34,10 @@ PetscErrorCode lag_shows(const Contact *contact, PetscBool *shows)
     const Interface             *interface = &contact->interfaces[i];
     const stickslip_equilibrium *e         = &interface->equilibrium;
     if (!may_be_corrected(contact, interface)) continue;
-    forces[0] = interface->part.handle ? e->lag_force : 0;
-    forces[1] = interface->part.handle ? e->lag_force_scale : 0;
+    forces[0] = verb_there(&interface->part) ? e->lag_force : 0;
+    forces[1] = verb_there(&interface->part) ? e->lag_force_scale : 0;
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, forces, 2, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
-    *shows = (PetscBool)(*shows || forces[0] > LAGS * forces[1] || (interface->part.handle && e->lag > interface->lag.most * e->traction_scale));
+    *shows = (PetscBool)(*shows || forces[0] > LAGS * forces[1] || (verb_there(&interface->part) && e->lag > interface->lag.most * e->traction_scale));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, shows, 1, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
   PetscFunctionReturn(PETSC_SUCCESS);

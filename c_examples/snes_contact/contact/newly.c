@@ -25,21 +25,22 @@ static PetscBool has_copy(const ContactPart *part, const int32_t state[], PetscI
 }
 
 /* Adds a part's normal forces to sums[0], to sums[1] those of nodes that slip without friction. */
-static PetscErrorCode add_forces(const ContactPart *part, PetscReal mu, PetscReal sums[2])
+static PetscErrorCode add_forces(const Mesh *mesh, const Interface *interface, PetscReal sums[2])
 {
-  const PetscInt   n1 = part->n1, d = part->dimension;
-  const PetscReal  none = PetscMin(ROUNDING, OF_FRICTION * mu);
+  const ContactPart *part = &interface->part;
+  const PetscInt     n1 = part->n1, d = part->dimension;
   stickslip_states wanted = {.struct_size = sizeof(wanted)};
   PetscReal        pressed = 0;
   PetscFunctionBegin;
   for (PetscInt k = 0; k < part->components * n1; k++)
     pressed = PetscMax(pressed, PetscAbsReal(PetscRealPart(MULTIPLIERS_OF(part, part->gathered)[k])));
-  if (!part->handle || !(pressed > 0)) PetscFunctionReturn(PETSC_SUCCESS); /* coverage would be sought */
+  if (!verb_there(part) || !(pressed > 0)) PetscFunctionReturn(PETSC_SUCCESS); /* coverage would be sought */
   PetscCall(PetscMalloc4(n1, &wanted.state, d * n1, &wanted.traction, d * n1, &wanted.normal, n1, &wanted.coverage));
-  PetscCallStickslip(stickslip_interface_states(part->handle, STATE_OF(part), NULL, &wanted));
+  PetscCallStickslip(verb_states(part, &wanted));
   for (PetscInt a = 0; a < n1; a++) {
-    double   n[3], t[3], p, across = 0;
-    PetscInt removed = 0;
+    const PetscReal mu = contact_friction(mesh, interface, a), none = PetscMin(ROUNDING, OF_FRICTION * mu);
+    double          n[3], t[3], p, across = 0;
+    PetscInt        removed = 0;
     contact_vector(d, wanted.normal, a, n);
     contact_vector(d, wanted.traction, a, t);
     p = t[0] * n[0] + t[1] * n[1] + t[2] * n[2];
@@ -49,7 +50,7 @@ static PetscErrorCode add_forces(const ContactPart *part, PetscReal mu, PetscRea
       removed += (part->removed[a] >> k) & 1;
     if (part->owned[a] != STICKSLIP_NODE_OWN || wanted.state[a] == STICKSLIP_STATE_GAP || removed >= d - 1) continue;
     sums[0] += PetscAbsReal(p) * wanted.coverage[a];
-    if (wanted.state[a] == STICKSLIP_STATE_SLIP && across <= none * PetscAbsReal(p) && !has_copy(part, wanted.state, a))
+    if (mu > 0 && wanted.state[a] == STICKSLIP_STATE_SLIP && across <= none * PetscAbsReal(p) && !has_copy(part, wanted.state, a))
       sums[1] += PetscAbsReal(p) * wanted.coverage[a];
   }
   PetscCall(PetscFree4(wanted.state, wanted.traction, wanted.normal, wanted.coverage));
@@ -66,13 +67,14 @@ PetscErrorCode newly_check(const Contact *contact, char why[], size_t length)
     if (!newly_rubs(&interface->options) || interface->method.weights != STICKSLIP_WEIGHTS_CURRENT ||
         interface->method.new_contact != STICKSLIP_NEW_CONTACT_FRICTIONLESS)
       continue;
-    PetscCall(add_forces(&interface->part, interface->options.mu, sums));
+    PetscCall(add_forces(contact->mesh, interface, sums));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
     if (!(sums[1] > WITHOUT_FRICTION * sums[0])) continue;
     PetscCall(PetscSNPrintf(why, length,
                             "converged, but nodes of %s that this step newly covers act without friction in it, and carry %.2g %% of its "
-                            "pressure: take shorter steps, or as nonmortar the side that stays covered (swap `nonmortar` and `mortar`)",
-                            interface->name, (double)(100 * sums[1] / sums[0])));
+                            "pressure: take shorter steps%s",
+                            interface->name, (double)(100 * sums[1] / sums[0]),
+                            interface->skin ? "" : ", or as nonmortar the side that stays covered (swap `nonmortar` and `mortar`)"));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -21,8 +21,7 @@ PetscErrorCode normals_use(Contact *contact, int32_t normals)
   PetscFunctionBegin;
   contact->settles = (PetscBool)(normals == STICKSLIP_NORMALS_COMMITTED);
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    if (follows(&contact->interfaces[i]) && contact->interfaces[i].part.handle)
-      PetscCallStickslip(stickslip_interface_use_normals(contact->interfaces[i].part.handle, normals));
+    if (follows(&contact->interfaces[i])) PetscCallStickslip(verb_use_normals(&contact->interfaces[i].part, normals));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -36,7 +35,7 @@ static PetscErrorCode turn(Interface *interface, double multipliers[])
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(n, &given));
   PetscCall(PetscArraycpy(given, multipliers, n));
-  if (part->handle) refused = stickslip_interface_turn_multipliers(part->handle, part->x, multipliers) != 0;
+  refused = verb_turn_multipliers(part, multipliers) != 0;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &refused, 1, MPIU_INT, MPI_MAX, PETSC_COMM_WORLD));
   if (refused) PetscCall(PetscArraycpy(multipliers, given, n));
   PetscCall(parts_share(part, part->components, multipliers));

@@ -1,6 +1,6 @@
 /* A rank's part of an interface: its arrays, and the library's handle of it: surfaces in the library's arrays, equation numbers,
  * prescribed directions. */
-#include "contact/contact.h"
+#include "contact/skin.h"
 
 /* of `gathered`, `forces` and `equations` */
 static PetscInt n_entries(const ContactPart *part)
@@ -198,6 +198,7 @@ PetscErrorCode part_destroy(ContactPart *part)
 {
   PetscFunctionBegin;
   PetscCallStickslip(stickslip_interface_destroy(&part->handle));
+  PetscCall(skin_part_destroy(part));
   PetscCall(PetscSFDestroy(&part->sf));
   PetscCall(PetscFree5(part->X, part->x, part->gathered, part->forces, part->equations));
   PetscCall(PetscFree4(part->lambda, part->lambda_start, part->lambda_last, part->lambda_before));

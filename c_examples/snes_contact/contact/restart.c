@@ -169,8 +169,8 @@ static int32_t find_slip(const Interface *interface, ContactPart *part)
 {
   stickslip_states wanted = {.struct_size = sizeof(wanted), .slip = part->slip};
   int32_t          status = 0;
-  if (!part->handle) return 0;
-  status = stickslip_interface_states(part->handle, STATE_OF(part), NULL, &wanted);
+  if (!verb_there(part)) return 0;
+  status = verb_states(part, &wanted);
   return status ? status : law_keep(interface, part);
 }
 
@@ -202,21 +202,22 @@ static PetscErrorCode archive_array(const Contact *contact, PetscMPIInt owner, c
 static PetscErrorCode archive_history(const Contact *contact, const Interface *interface, PetscMPIInt owner, Archive *archive,
                                       int32_t *refused)
 {
-  stickslip_interface *handle = interface->part.handle;
-  int64_t              n[2]   = {0, 0}, *integers;
-  double              *reals;
+  ContactPart    *part   = (ContactPart *)&interface->part;
+  const PetscBool handle = verb_there(part);
+  int64_t         n[2]   = {0, 0}, *integers;
+  double         *reals;
 
   PetscFunctionBegin;
-  if (handle && !archive->reading) *refused = stickslip_interface_history_size(handle, &n[0], &n[1]);
+  if (handle && !archive->reading) *refused = verb_history_size(part, n);
   PetscCallMPI(MPI_Bcast(n, 2, MPI_INT64_T, owner, PETSC_COMM_WORLD));
   PetscCall(archive_bytes(archive, "history.sizes", sizeof(n), n));
   PetscCall(PetscCalloc2(n[0], &integers, n[1], &reals));
-  if (handle && !archive->reading && !*refused) *refused = stickslip_interface_history_export(handle, n[0], integers, n[1], reals);
+  if (handle && !archive->reading && !*refused) *refused = verb_history_export(part, n, integers, reals);
   PetscCall(archive_array(contact, owner, "history.integers", n[0], integers, archive));
   PetscCall(archive_array(contact, owner, "history.reals", n[1], reals, archive));
   if (handle && archive->reading && !archive->bad && interface->n_parts < 2) {
-    *refused = offsets_set(interface, handle, contact->t_committed);
-    if (!*refused) *refused = stickslip_interface_history_import(handle, n[0], integers, n[1], reals);
+    if (part->handle) *refused = offsets_set(interface, part->handle, contact->t_committed);
+    if (!*refused) *refused = verb_history_import(part, n, integers, reals);
   }
   PetscCall(PetscFree2(integers, reals));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -239,7 +240,7 @@ static PetscErrorCode refuse(Contact *contact, const Interface *interface, int32
 static PetscErrorCode archive_interface(Contact *contact, PetscInt number, Archive *archive)
 {
   Interface  *interface = &contact->interfaces[number];
-  PetscMPIInt owner     = interface->part.handle ? contact->mesh->rank : -1;
+  PetscMPIInt owner     = verb_there(&interface->part) ? contact->mesh->rank : -1;
   PetscInt    n, n_parts = interface->n_parts, status = 0;
   int32_t     refused = 0;
   double     *all;

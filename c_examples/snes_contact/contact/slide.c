@@ -14,7 +14,7 @@ PetscErrorCode slide_find(const Interface *interface, const Mesh *mesh, double f
 {
   const ContactPart *part = &interface->part;
   PetscFunctionBegin;
-  frozen->amount = part->handle && found > 0 ? found : 0;
+  frozen->amount = verb_there(part) && found > 0 ? found : 0;
   if (frozen->amount > 0) contact_vector(part->dimension, part->X, (PetscInt)node, where);
   PetscCall(contact_largest(mesh, &frozen->amount, 4 * sizeof(*where), where));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -8,11 +8,11 @@ PetscErrorCode contact_results(const ContactPart *part, double results[])
   stickslip_states   wanted = {.struct_size = sizeof(wanted)};
 
   PetscFunctionBegin;
-  if (!part->handle) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!verb_there(part)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc7(n1, &wanted.state, d * n1, &wanted.normal, n1, &wanted.gap, d * n1, &wanted.slip, n1,
                          &wanted.coverage, n1, &wanted.area, n1, &wanted.dissipation));
-  PetscCall(PetscMalloc5(n1, &wanted.share, n1, &wanted.worn, n1, &wanted.worn_volume, n1, &wanted.damage, n1, &wanted.bond_loss));
-  PetscCallStickslip(stickslip_interface_states(part->handle, STATE_OF(part), NULL, &wanted));
+  PetscCall(PetscCalloc5(n1, &wanted.share, n1, &wanted.worn, n1, &wanted.worn_volume, n1, &wanted.damage, n1, &wanted.bond_loss));
+  PetscCallStickslip(verb_states(part, &wanted));
   for (PetscInt a = 0; a < n1; a++) {
     double *r = results + N_RESULTS * a;
     r[RESULT_STATE]  = wanted.state[a];
@@ -111,9 +111,9 @@ static PetscErrorCode tendencies(const ContactPart *part, double results[])
   const PetscInt   n1 = part->n1, d = part->dimension;
   stickslip_states wanted = {.struct_size = sizeof(wanted)};
   PetscFunctionBegin;
-  if (!part->handle) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!verb_there(part)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc3(n1, &wanted.state, d * n1, &wanted.traction, d * n1, &wanted.normal));
-  PetscCallStickslip(stickslip_interface_states(part->handle, STATE_OF(part), NULL, &wanted));
+  PetscCallStickslip(verb_states(part, &wanted));
   for (PetscInt a = 0; a < n1; a++) {
     double n[3], t[3], p;
     contact_vector(d, wanted.normal, a, n);
@@ -181,7 +181,7 @@ PetscErrorCode contact_scale_augmentation(Contact *contact, const PetscBool *mar
   PetscInt first = 0;
   PetscFunctionBegin;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    if (!decision_is_points(&contact->interfaces[i]))
+    if (!decision_is_points(&contact->interfaces[i]) && !contact->interfaces[i].skin) /* pieces come and go */
       PetscCall(scale_augmentation(&contact->interfaces[i], marked ? marked + first : NULL, factor));
     first += contact->interfaces[i].n1;
   }

@@ -7,7 +7,7 @@ static const PetscReal STICKS = 1e6;
 
 static PetscBool can_stick(const Interface *interface)
 {
-  return (PetscBool)(interface->options.friction == STICKSLIP_FRICTION_COULOMB && interface->law.kind == STICKSLIP_LAW_COULOMB &&
+  return (PetscBool)(!interface->skin && interface->options.friction == STICKSLIP_FRICTION_COULOMB && interface->law.kind == STICKSLIP_LAW_COULOMB &&
                      interface->options.mu > 0);
 }
 

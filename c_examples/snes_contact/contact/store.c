@@ -11,9 +11,9 @@ static PetscErrorCode add_part(const ContactPart *part, PetscReal *store)
   const PetscInt   n1     = part->n1, d = part->dimension;
   stickslip_states wanted = {.struct_size = sizeof(wanted)};
   PetscFunctionBegin;
-  if (!part->handle) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!verb_there(part)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc3(n1, &wanted.gap, d * n1, &wanted.traction, d * n1, &wanted.normal));
-  PetscCallStickslip(stickslip_interface_states(part->handle, STATE_OF(part), NULL, &wanted));
+  PetscCallStickslip(verb_states(part, &wanted));
   for (PetscInt a = 0; a < n1; a++) {
     if (part->owned[a] != STICKSLIP_NODE_OWN) continue;
     for (PetscInt i = 0; i < d; i++)

@@ -113,6 +113,23 @@ static PetscErrorCode find_other(const Physics *physics, const Interface *interf
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Of the vertices of the piece: the axes along which supports of one component hold them, as walls without friction do; and how near counts
+ * as in one plane. */
+PetscErrorCode symmetry_walls(const Physics *physics, PetscInt axes[], PetscReal *tolerance)
+{
+  PetscFunctionBegin;
+  PetscCall(mesh_size(physics->mesh, tolerance));
+  *tolerance *= SAME_PLANE;
+  PetscCall(PetscArrayzero(axes, physics->mesh->n_vertices));
+  for (PetscInt s = 0; s < physics->n_supports; s++) {
+    const Support *support = &physics->supports[s];
+    const int      axis    = glides_across(support);
+    for (PetscInt k = 0; k < support->n_vertices && axis != NO_PLANE; k++)
+      axes[support->vertices[k]] |= 1 << axis;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* adds to each non-mortar node's mask the normal of the planes of symmetry that it lies in */
 PetscErrorCode symmetry_mask(const Physics *physics, const Interface *interface, PetscInt mask[])
 {

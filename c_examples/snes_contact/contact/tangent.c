@@ -45,15 +45,11 @@ static PetscErrorCode insert(Entries entries, PetscBool zero, Mat matrix)
 /* Which entries the tangent has here; kept until values lack one. */
 static PetscErrorCode plan(const Contact *contact, ContactPart *part, int32_t pairs, int32_t *refused)
 {
-  int64_t n_rows;
-
   PetscFunctionBegin;
-  *refused = stickslip_interface_plan(part->handle, part->x, MORTAR_OF(part, part->x), pairs, &n_rows,
-                                      &part->planned);
+  *refused = verb_plan(part, pairs, &part->planned);
   if (*refused || !part->planned) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(reserve(part, part->planned));
-  *refused = stickslip_interface_plan_coo(part->handle, STICKSLIP_ENTRIES_TANGENT, part->coo_capacity,
-                                          part->coo_rows, part->coo_columns);
+  *refused = verb_plan_coo(part);
   if (!*refused) PetscCall(rigid_part_plan(contact, part, part->planned));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -75,20 +71,14 @@ static PetscErrorCode condensed_plan(const Contact *contact, ContactPart *part, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static int32_t plan_values(ContactPart *part)
-{
-  return stickslip_interface_plan_values(part->handle, STATE_OF(part), NULL, part->coo_capacity,
-                                         part->coo_values);
-}
-
 /* Where pairs have come that the plan does not have, one of the pairs of now takes its place. */
 static PetscErrorCode tangent(const Contact *contact, ContactPart *part, int32_t *refused)
 {
   PetscFunctionBegin;
-  *refused = part->planned ? plan_values(part) : STICKSLIP_MISSING_ENTRY;
+  *refused = part->planned ? verb_plan_values(part) : STICKSLIP_MISSING_ENTRY;
   if (*refused == STICKSLIP_MISSING_ENTRY) {
     PetscCall(plan(contact, part, STICKSLIP_PLAN_ACTIVE, refused));
-    if (!*refused && part->planned) *refused = plan_values(part); /* where all is prescribed there is none */
+    if (!*refused && part->planned) *refused = verb_plan_values(part); /* where all is prescribed there is none */
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -100,19 +90,13 @@ static int32_t entries(ContactPart *part, int32_t piece, int64_t capacity, int64
                                            count);
 }
 
-/* Forces of the part at u_local, which rigid bodies turn round. The library has just evaluated them. */
-static int32_t forces(ContactPart *part)
-{
-  return stickslip_interface_residual(part->handle, STATE_OF(part), NULL, part->forces, MORTAR_OF(part, part->forces),
-                                      MULTIPLIERS_OF(part, part->forces));
-}
-
-/* What rigid bodies make of the values in the part's array; `force`: these are derivatives of forces. */
+/* What rigid bodies make of the values in the part's array; `force`: these are derivatives of forces, which bodies turn round. The library has
+ * just evaluated them. */
 static PetscErrorCode rigid_values(const Contact *contact, ContactPart *part, PetscBool force, int32_t *refused)
 {
   PetscFunctionBegin;
   if (!part->rigid || *refused) PetscFunctionReturn(PETSC_SUCCESS);
-  if (force) *refused = forces(part);
+  if (force) *refused = verb_residual(part);
   if (!*refused) PetscCall(rigid_part_values(contact, part, force ? part->forces : NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -153,7 +137,7 @@ PetscErrorCode contact_tangent(Contact *contact, Mat matrix, PetscInt *status)
     part->processor -= work_clock();
     if (part->handle && contact->condensed) {
       PetscCall(contact_entries(contact, part, STICKSLIP_CONDENSED_FORCES, &found, &refused));
-    } else if (part->handle) {
+    } else if (verb_there(part)) {
       PetscCall(tangent(contact, part, &refused));
       PetscCall(rigid_values(contact, part, PETSC_TRUE, &refused));
       found = rigid_part_entries(part, part->planned);
@@ -176,7 +160,7 @@ PetscErrorCode contact_pattern(Contact *contact, Mat matrix)
     int32_t      refused;
     int64_t      count;
     PetscCall(contact_gather(contact, &contact->interfaces[i], contact->physics->u_local));
-    if (!part->handle) continue;
+    if (!verb_there(part)) continue;
     if (contact->condensed) {
       PetscCall(condensed_plan(contact, part, &count));
     } else {

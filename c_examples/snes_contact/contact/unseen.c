@@ -29,7 +29,7 @@ static const char *remedy(const Interface *interface)
     return "With `weights: persistent` what overlaps at the start of a step counts as closed: take `weights: current`";
   if (interface->method.weights != STICKSLIP_WEIGHTS_CURRENT)
     return "Frozen weights do not know where the surfaces are: take `weights: current`, or shorter steps";
-  if (decision_is_points(interface) || interface->surface[1]->analytic) return "Facets that are coarser than the contact do not feel it: take finer ones";
+  if (decision_is_points(interface) || interface->surface[1]->analytic || interface->skin) return "Facets that are coarser than the contact do not feel it: take finer ones";
   return "Facets that are coarser than the contact do not feel it: make the side with the finer facets `nonmortar`, mesh both finer, or take "
          "`decision: points`";
 }
@@ -47,8 +47,8 @@ static PetscErrorCode measure(const Contact *contact, Interface *interface)
   PetscCall(slide_find(interface, mesh, e->apart > 0 ? e->apart / e->apart_scale : 0, e->apart_node, apart, there));
   PetscCall(slide_find(interface, mesh, e->lag > 0 ? e->lag / traction : 0, e->lag_node, lag, at));
   interface->depth = where[3];
-  force[0]         = interface->part.handle ? e->lag_force : 0;
-  force[1]         = interface->part.handle ? e->lag_force_scale : 0; /* 0 with the host's normals */
+  force[0]         = verb_there(&interface->part) ? e->lag_force : 0;
+  force[1]         = verb_there(&interface->part) ? e->lag_force_scale : 0; /* 0 with the host's normals */
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, force, 2, MPIU_REAL, MPI_SUM, PETSC_COMM_WORLD));
   interface->lag_force = interface->normals ? contact->lag_left : force[1] > 0 ? force[0] / force[1] : 0;
   PetscCall(PetscSNPrintf(overlap->words, sizeof(overlap->words), "the bodies of %s overlap by %.2g at (%g, %g, %g)", interface->name,

@@ -29,12 +29,10 @@ static PetscErrorCode hangs_over(const ContactPart *part, PetscBool *any)
   PetscFunctionBegin;
   *any = PETSC_FALSE;
   PetscCall(PetscMalloc3(part->n1, &state.state, part->n1, &wanted.coverage, part->n1, &wanted.area));
-  if (part->handle) {
-    PetscCallStickslip(stickslip_interface_states(part->handle, STATE_OF(part), NULL, &state));
-    PetscCallStickslip(stickslip_interface_counters(part->handle, &counters));
-    if (!counters.evaluations_apart) PetscCallStickslip(stickslip_interface_states(part->handle, STATE_OF(part), NULL, &wanted));
-  }
-  for (PetscInt a = 0; a < part->n1 && part->handle && !counters.evaluations_apart; a++) {
+  if (verb_there(part)) PetscCallStickslip(verb_states(part, &state));
+  if (part->handle) PetscCallStickslip(stickslip_interface_counters(part->handle, &counters));
+  if (verb_there(part) && !counters.evaluations_apart) PetscCallStickslip(verb_states(part, &wanted));
+  for (PetscInt a = 0; a < part->n1 && verb_there(part) && !counters.evaluations_apart; a++) {
     if (part->owned[a] != STICKSLIP_NODE_OWN || part->removed[a] == 7) continue;
     *any = (PetscBool)(*any || (wanted.coverage[a] > 0 && wanted.coverage[a] < WHOLE * wanted.area[a]));
   }

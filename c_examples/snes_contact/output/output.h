@@ -57,6 +57,9 @@ void           energy_summary(const Output *output, struct cJSON *root);
 PetscErrorCode uniqueness_check(Output *output, Vec x, struct cJSON *root);
 /* redundant_report.c: multipliers that are left out */
 PetscErrorCode redundant_report(const Output *output, struct cJSON *root);
+/* skin_report.c: of general contact; in words */
+PetscErrorCode skin_report(const Output *output, struct cJSON *root);
+PetscErrorCode skin_report_tell(const Output *output, const struct cJSON *root);
 /* counters.c: what the run and each interface cost */
 PetscErrorCode summary_counters(Output *output, struct cJSON *root);
 /* holdings.c: what each rank holds */
@@ -101,6 +104,8 @@ PetscErrorCode vtu_cell_stresses(FILE *file, const Heat *heat, const Physics *ph
 PetscErrorCode vtu_nodal_stresses(FILE *file, const Heat *heat, const Physics *physics, const Piece *piece);
 /* vtu_rigid.c */
 PetscErrorCode vtu_rigids(const Output *output, PetscInt step);
+/* vtu_skin.c: of general contact */
+PetscErrorCode vtu_skin(const Output *output, PetscInt step);
 /* vtu.c: on every rank */
 PetscErrorCode vtu_write(Output *output, PetscInt step);
 #endif

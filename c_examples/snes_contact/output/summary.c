@@ -137,7 +137,7 @@ static PetscErrorCode interface_results(Output *output, Interface *interface, co
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &dissipation, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
   interface->friction_work += dissipation;
   *work += interface->friction_work;
-  cJSON_AddItemToObject(json, "force", cJSON_CreateDoubleArray(force, 3));
+  if (!interface->skin) cJSON_AddItemToObject(json, "force", cJSON_CreateDoubleArray(force, 3)); /* a skin has both sides */
   cJSON_AddNumberToObject(json, "gap", counts[STICKSLIP_STATE_GAP]);
   cJSON_AddNumberToObject(json, "stick", counts[STICKSLIP_STATE_STICK]);
   cJSON_AddNumberToObject(json, "slip", counts[STICKSLIP_STATE_SLIP]);
@@ -272,11 +272,13 @@ PetscErrorCode summary_step(Output *output, Summary *summary, PetscInt step, Pet
   PetscCall(heat_results(output, json));
   if (vtu) PetscCall(vtu_write(output, step));
   if (vtu) PetscCall(vtu_rigids(output, step));
+  if (vtu) PetscCall(vtu_skin(output, step));
   PetscCall(held_check(solve));
   PetscCall(held_check_springs(solve));
   cJSON_AddNumberToObject(json, "friction_work", friction_work);
   PetscCall(energy_report(output, friction_work, json));
   if (last) PetscCall(redundant_report(output, summary->root));
+  if (last) PetscCall(skin_report(output, summary->root));
   PetscCall(VecDuplicate(physics->u_local, &summary->state));
   PetscCall(VecCopy(physics->u_local, summary->state));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -360,6 +362,7 @@ PetscErrorCode summary_write(Output *output, Summary **summary, Vec last, PetscI
   loads_report_turn(output->physics, (*summary)->root);
   PetscCall(summary_counters(output, (*summary)->root));
   PetscCall(summary_holdings(output, (*summary)->root));
+  PetscCall(skin_report_tell(output, (*summary)->root));
   if (message[0])
     PetscCall(diagnosis_failed(output, (*summary)->root));
   else

@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* Does the scene, or the command line, have a key in this map? */
-static PetscBool has_map(const char *name)
+PetscBool scene_has_map(const char *name)
 {
   char     *all, start[NAME_LENGTH + 4];
   PetscBool found;
@@ -57,7 +57,7 @@ void scene_names(Scene *scene, const char *list, PetscInt *n, char ***names)
       if (!strcmp(scene->names[j], name))
         scene_fail(scene, map, key, "the name '%s' is given twice; names must be unique in the whole scene.", name);
     }
-    if (!has_map(name))
+    if (!scene_has_map(name))
       scene_fail(scene, map, key, "'%s' is listed and has no map: write `%s: {KEY: VALUE, ...}` at the top level.", name,
                  name);
     scene->names                   = realloc(scene->names, (size_t)(scene->n_names + 1) * sizeof(*scene->names));

@@ -37,6 +37,9 @@ PetscErrorCode scene_root_end(Scene *scene);
 /* Is the key there? Counts as asked for. */
 PetscBool scene_has(Scene *scene, const char *map, const char *key);
 
+/* ... or a key of this map? */
+PetscBool scene_has_map(const char *map);
+
 /* Readers leave the default in place when the key is missing; the *_required ones fail instead. */
 void scene_real(Scene *scene, const char *map, const char *key, PetscReal *value);
 void scene_real_required(Scene *scene, const char *map, const char *key, PetscReal *value);

@@ -25,9 +25,13 @@ void scene_fail_at(Scene *scene, size_t line, const char *dotted, const char *te
   scene_end_run(scene, sentence);
 }
 
+/* In this map keys are pairs of names, as `steel.rubber`; PETSc keeps their dots. */
+static const char PAIRS[] = "friction";
+
 static void add_key(Scene *scene, const char *dotted, size_t line)
 {
-  SceneKey *key;
+  const PetscBool pair = (PetscBool)(!strncmp(dotted, PAIRS, sizeof(PAIRS) - 1) && dotted[sizeof(PAIRS) - 1] == '.');
+  SceneKey       *key;
   for (PetscInt k = 0; k < scene->n_keys; k++) {
     if (!strcmp(scene->keys[k].dotted, dotted)) scene_fail_at(scene, line, dotted, "this key is given twice.");
   }
@@ -37,7 +41,9 @@ static void add_key(Scene *scene, const char *dotted, size_t line)
   key->flat   = strdup(dotted);
   key->line   = (PetscInt)line;
   for (char *c = key->flat; *c; c++) {
-    if (*c == '.') *c = '_';
+    if (*c != '.') continue;
+    *c = '_';
+    if (pair) break;
   }
 }
 
@@ -53,7 +59,8 @@ static void walk(Scene *scene, yaml_document_t *document, yaml_node_t *map, cons
     if (key->type != YAML_SCALAR_NODE) scene_fail_at(scene, line, prefix, "a key must be a single word.");
     word = (const char *)key->data.scalar.value;
     snprintf(dotted, sizeof(dotted), "%s%s%.100s", prefix, prefix[0] ? "." : "", word);
-    if (!word[0] || strspn(word, "abcdefghijklmnopqrstuvwxyz0123456789_") != strlen(word))
+    if (!word[0] || strspn(word, "abcdefghijklmnopqrstuvwxyz0123456789_" /* and: */ ".") != strlen(word) ||
+        (strchr(word, '.') && strcmp(prefix, PAIRS)))
       scene_fail_at(scene, line, dotted, "a key may hold only the characters a-z, 0-9 and _.");
     if (!prefix[0] && strchr(word, '_'))
       scene_fail_at(

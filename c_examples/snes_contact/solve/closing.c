@@ -82,21 +82,19 @@ static void join(Closing *closing, PetscInt n, PetscInt a, PetscInt b)
   }
 }
 
-/* A body that is loose, given which interfaces join theirs, or -1. */
-static PetscInt find_loose(Solve *solve, const PetscBool joined[])
+/* A body that is loose, given which bodies are joined, or -1. */
+static PetscInt find_loose(Solve *solve, PetscInt n_joints, const Joint joints[])
 {
-  const Contact *contact = solve->contact;
   Closing       *closing = &solve->closing;
   const PetscInt n       = solve->mesh->n_bodies;
 
   for (PetscInt b = 0; b < n; b++)
     closing->group[b] = b;
-  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    const PetscInt *body = contact->interfaces[i].body;
-    if (joined[i]) join(closing, n, body[0], body[1]);
+  for (PetscInt k = 0; k < n_joints; k++) {
+    if (joints[k].joined) join(closing, n, joints[k].bodies[0], joints[k].bodies[1]);
   }
-  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    const PetscInt one = contact->interfaces[i].body[0], two = contact->interfaces[i].body[1];
+  for (PetscInt k = 0; k < n_joints; k++) {
+    const PetscInt one = joints[k].bodies[0], two = joints[k].bodies[1];
     if (closing->group[one] == closing->group[two]) continue;
     for (int side = 0; side < 2; side++) {
       const PetscInt body = side ? two : one;
@@ -115,21 +113,17 @@ static PetscErrorCode loose_body(Solve *solve, PetscInt *body)
   Contact   *contact = solve->contact;
   int32_t   *states;
   double    *tangential;
-  PetscBool *joined; /* by each interface: a tie, or a node in contact */
-  PetscInt   n = 0, node = 0;
+  Joint     *joints;
+  PetscInt   n = 0, n_joints;
   PetscFunctionBegin;
   for (PetscInt i = 0; i < contact->n_interfaces; i++)
     n += contact->interfaces[i].n1;
-  PetscCall(PetscMalloc3(n, &states, 3 * n, &tangential, contact->n_interfaces, &joined));
+  PetscCall(PetscMalloc2(n, &states, 3 * n, &tangential));
   PetscCall(contact_tendencies(contact, states, tangential));
-  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    joined[i] = (PetscBool)(contact->interfaces[i].options.friction == STICKSLIP_FRICTION_TIED);
-    for (PetscInt a = 0; a < contact->interfaces[i].n1; a++, node++)
-      joined[i] = (PetscBool)(joined[i] || states[node] != STICKSLIP_STATE_GAP);
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, joined, (PetscMPIInt)contact->n_interfaces, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
-  *body = find_loose(solve, joined);
-  PetscCall(PetscFree3(states, tangential, joined));
+  PetscCall(contact_joints(contact, states, &n_joints, &joints));
+  *body = find_loose(solve, n_joints, joints);
+  PetscCall(PetscFree(joints));
+  PetscCall(PetscFree2(states, tangential));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -72,7 +72,7 @@ static PetscBool turns_unheld(const Solve *solve, const Rigid *rigid)
   for (PetscInt i = 0; i < solve->contact->n_interfaces && free; i++) {
     const Interface *interface = &solve->contact->interfaces[i];
     for (int side = 0; side < 2; side++) {
-      if (interface->body[side] != rigid->body) continue;
+      if (!interface->skin && interface->body[side] != rigid->body) continue;
       touches = PETSC_TRUE;
       free    = (PetscBool)(free && interface->options.friction == STICKSLIP_FRICTION_NONE);
     }

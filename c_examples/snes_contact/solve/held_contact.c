@@ -16,11 +16,11 @@ static void position_of(const ContactPart *part, PetscInt node, PetscReal x[3])
     x[i] += part->origin[i];
 }
 
-/* The model's part of the mortar vertex nearest to a node: a surface may belong to several. */
-static PetscInt mortar_part(const ContactPart *part, const PetscReal at[3])
+/* The model's part of the mortar vertex nearest to node a: a surface may belong to several. Of a skin that of what lies opposite. */
+static PetscInt mortar_part(const ContactPart *part, PetscInt a, const PetscReal at[3])
 {
-  const PetscInt *pieces = part->piece + part->n1;
-  PetscInt        piece  = pieces[0];
+  const PetscInt *pieces = part->piece + part->n1, opposite = verb_opposite(part, a);
+  PetscInt        piece  = part->n2 ? pieces[0] : part->piece[opposite < 0 ? a : opposite];
   PetscBool       one    = PETSC_TRUE;
   PetscReal       best   = PETSC_MAX_REAL, x[3];
   for (PetscInt k = 1; k < part->n2 && one; k++)
@@ -134,7 +134,7 @@ PetscErrorCode motions_add_contact(const Mesh *mesh, const Interface *interface,
     const PetscBool sticks = (PetscBool)(result[RESULT_STATE] == STICKSLIP_STATE_STICK);
     if (!holds(part, a, results)) continue;
     position_of(part, a, at);
-    other = mortar_part(part, at);
+    other = mortar_part(part, a, at);
     across(normal, result + RESULT_MULTIPLIER, turns);
     if (!sticks) normal = distinct.normals + 3 * same_normal(&distinct, normal);
     for (int i = 0; i < (sticks ? 3 : 2); i++) {
@@ -159,7 +159,8 @@ static const PetscReal COVERED = 1e-3;
  * first only, that one. */
 static void point_of(const Solve *solve, const Interface *interface, int side, PetscInt node, PetscReal x[3])
 {
-  if (solve->physics->materials[interface->body[side]].law->finite)
+  const PetscInt body = interface->skin ? mesh_body_of(solve->mesh, interface->part.vertices[node]) : interface->body[side];
+  if (solve->physics->materials[body].law->finite)
     position_of(&interface->part, node, x);
   else
     contact_vector(interface->part.dimension, interface->part.X, node, x);
@@ -194,9 +195,10 @@ PetscErrorCode held_gaps(const Solve *solve, const Interface *interface, Gap gap
     Gap          *gap    = &gaps[*n];
     PetscReal     at[3], there[3];
     PetscInt      other;
-    if (part->owned[a] != STICKSLIP_NODE_OWN || part->removed[a] == 7 || result[RESULT_COVERAGE] < COVERED || !part->n2) continue;
+    if (part->owned[a] != STICKSLIP_NODE_OWN || part->removed[a] == 7 || result[RESULT_COVERAGE] < COVERED) continue;
     position_of(part, a, at);
-    other = nearest(part, at);
+    other = interface->skin ? verb_opposite(part, a) : nearest(part, at);
+    if (other < 0 || other == part->n1 + part->n2) continue;
     position_of(part, other, there);
     gap->part[0] = part->piece[a];
     gap->part[1] = part->piece[other];
@@ -207,7 +209,7 @@ PetscErrorCode held_gaps(const Solve *solve, const Interface *interface, Gap gap
       gap->normal[i] = result[RESULT_NORMAL + i];
     }
     gap->gap      = result[RESULT_GAP] / result[RESULT_COVERAGE];
-    gap->friction = kind == STICKSLIP_FRICTION_COULOMB ? interface->options.mu : 0;
+    gap->friction = kind == STICKSLIP_FRICTION_COULOMB ? contact_friction(solve->mesh, interface, a) : 0;
     (*n)++;
   }
   PetscCall(PetscFree(results));

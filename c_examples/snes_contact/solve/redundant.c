@@ -20,7 +20,7 @@ static const PetscReal LIKE_GAPS = 1e-4;
 /* Only these have forces that are a multiplier's times weights. */
 static PetscBool may_have(const Interface *interface)
 {
-  return (PetscBool)(interface->method.form == STICKSLIP_FORM_MULTIPLIER && !decision_is_points(interface));
+  return (PetscBool)(!interface->skin && interface->method.form == STICKSLIP_FORM_MULTIPLIER && !decision_is_points(interface));
 }
 
 static PetscBool has_component(const Interface *interface, PetscInt node, PetscInt component)

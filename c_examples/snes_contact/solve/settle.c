@@ -365,7 +365,7 @@ static PetscErrorCode lay(Solve *solve, PetscReal t0, Vec last, PetscBool *laid)
   if (*laid) {
     const PetscReal t = solve->physics->t;
     solve->physics->t = t0;
-    PetscCall(contact_commit(solve->contact, &refused));
+    PetscCall(contact_commit(solve->contact, x, &refused));
     solve->physics->t = t;
     *laid             = (PetscBool)!refused;
     solve->contact->refusal[0] = 0;

@@ -243,6 +243,7 @@ PetscErrorCode undetermined_find(Solve *solve, char why[], size_t size);
 
 /* step_size.c */
 void      step_size_start(const Steps *steps, StepSize *size);
+void      step_size_anew(const Steps *steps, StepSize *size);
 PetscReal step_size_next(const Steps *steps, const StepSize *size, PetscReal t);
 void      step_size_accept(const Steps *steps, StepSize *size, PetscReal t_last, PetscReal t, const Newton *newton,
                            PetscBool bends);

@@ -27,6 +27,13 @@ void step_size_start(const Steps *steps, StepSize *size)
   size->longest = steps->automatic ? steps->largest : size->length;
 }
 
+/* As long as it may be, after a step that could not be short enough. */
+void step_size_anew(const Steps *steps, StepSize *size)
+{
+  size->length = steps->automatic ? steps->initial : size->longest;
+  size->held   = 0;
+}
+
 PetscReal step_size_next(const Steps *steps, const StepSize *size, PetscReal t)
 {
   const PetscReal target = steps->targets[size->next], rest = target - t;

@@ -22,7 +22,7 @@ static PetscReal chosen(int64_t equation)
 
 static PetscInt n_multipliers(const ContactPart *part)
 {
-  return part->handle ? part->components * part->n1 : 0;
+  return verb_there(part) ? part->components * part->n1 : 0;
 }
 
 static PetscErrorCode choose(const Contact *contact, Vec z)
