@@ -282,10 +282,10 @@ impl stickslip_method {
     /// What is not AUTO.
     fn wishes(&self, small_displacements: bool) -> Result<Wishes> {
         let bases = [None, Some(MultiplierBasis::Standard), Some(MultiplierBasis::Dual)];
-        let [current, committed, reference, persistent] =
-            [Weights::Current, Weights::Committed, Weights::Reference, Weights::Persistent].map(Some);
-        let all = [None, current, committed, reference, persistent];
-        let mut weights = choose(self.weights, "method.weights", &all, 5)?;
+        let [current, committed, reference, persistent, conserving] =
+            [Weights::Current, Weights::Committed, Weights::Reference, Weights::Persistent, Weights::Conserving].map(Some);
+        let all = [None, current, committed, reference, persistent, conserving];
+        let mut weights = choose(self.weights, "method.weights", &all, 6)?;
         if small_displacements {
             if weights.is_some() && weights != reference {
                 let text = "options.small_displacements is 1, but method.weights asks for others than STICKSLIP_WEIGHTS_REFERENCE; leave one of them 0";

@@ -31,6 +31,8 @@ pub enum Weights {
     Reference,
     /// The same, and what overlaps at t_n counts as closed there: contact does no work to part it (docs/formulation.md 4.9).
     Persistent,
+    /// Of now, and gaps are functions of the places alone: contact takes exactly what they change by (docs/formulation.md 20).
+    Conserving,
 }
 
 /// Which configuration the normals nu belong to.
@@ -280,7 +282,7 @@ impl Options {
 
     /// Those of now, unless the weights are frozen or points decide.
     fn best_normals(&self) -> Normals {
-        let follows = self.weights == Weights::Current && self.decision == Decision::Nodes;
+        let follows = matches!(self.weights, Weights::Current | Weights::Conserving) && self.decision == Decision::Nodes;
         if follows { Normals::Current } else { Normals::Committed }
     }
 
@@ -363,7 +365,16 @@ impl Options {
 
     /// The weights in force: tied surfaces keep those of the reference configuration.
     pub fn effective_weights(&self) -> Weights {
-        if self.friction.law().opens { self.weights } else { Weights::Reference }
+        match self.weights {
+            _ if !self.friction.law().opens => Weights::Reference,
+            Weights::Conserving => Weights::Current,
+            weights => weights,
+        }
+    }
+
+    /// Whether gaps are functions of the places alone, whose discrete derivatives are the forces.
+    pub fn conserves(&self) -> bool {
+        self.weights == Weights::Conserving && self.friction.law().opens
     }
 
     /// Whether an overlap at t_n counts as closed.
@@ -373,7 +384,7 @@ impl Options {
 
     /// Whether the normals follow the motion within a step. Tied surfaces use none.
     pub fn follows_normals(&self) -> bool {
-        self.normals == Normals::Current && self.friction.law().opens
+        (self.normals == Normals::Current || self.conserves()) && self.friction.law().opens
     }
 
     /// Whether the tangent has the weights' derivatives.
@@ -383,7 +394,7 @@ impl Options {
 
     /// The weak coverage in force; 0: no node is carried.
     pub fn effective_weak_coverage(&self) -> f64 {
-        if self.decides_at_points() {
+        if self.decides_at_points() || self.conserves() {
             return 0.0;
         }
         match (self.weak_coverage, self.basis) {
@@ -402,6 +413,9 @@ impl Options {
     /// The slip measure in force: with frozen weights the objective one measures nothing (both its
     /// terms use the same weights), and the increment is what it stands for.
     pub fn effective_slip(&self) -> SlipMeasure {
+        if self.conserves() {
+            return SlipMeasure::Increment;
+        }
         match (self.effective_weights(), self.slip) {
             (Weights::Committed | Weights::Persistent | Weights::Reference, SlipMeasure::Objective) => {
                 SlipMeasure::Increment

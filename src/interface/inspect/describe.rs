@@ -122,7 +122,10 @@ fn mortar_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
 
 fn weights_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
     let what = match setup.options.effective_weights() {
-        Weights::Current => "of now, differentiated (large sliding)",
+        _ if setup.options.conserves() => {
+            "of now; forces are discrete derivatives of the gaps (asked for): contact gives no energy"
+        }
+        Weights::Current | Weights::Conserving => "of now, differentiated (large sliding)",
         Weights::Committed => "frozen at the last commit (asked for), reused within a step",
         Weights::Persistent => {
             "frozen at the last commit, where overlaps count as closed (asked for): contact gives no energy"
@@ -174,7 +177,7 @@ fn apart_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
         (Weights::Current, false) if setup.mortar.analytic.is_some() => "integrated all the same (asked for)",
         (Weights::Current, true) => "only their boxes and normals are compared (chosen)",
         (Weights::Current, false) => "searched all the same (asked for)",
-        (Weights::Committed | Weights::Persistent | Weights::Reference, _) => {
+        (_, _) => {
             "nothing special, for frozen weights need no search"
         }
     };

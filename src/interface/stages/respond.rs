@@ -1,6 +1,7 @@
 //! Stage 2 over a whole interface: the law's answers at every node.
 
 use super::carried::{carry, find_carried};
+use super::conserving::gap_before;
 use super::node::{count_of, is_left_out, kept_overlap, node};
 use super::own::OwnAnswers;
 use super::sums::NodeSums;
@@ -61,7 +62,11 @@ pub fn respond<const N: usize>(
             own.ask(given, a, &mut node, &sums[a])?;
             let mut response = (given.setup.effects.law.respond)(&node);
             own.settle(given, a, &response);
-            response.gap_normal += kept_overlap(given, &node.normal, &sums[a]); // what is told is where the surfaces are
+            // What is told is where the surfaces are.
+            response.gap_normal += match given.setup.options.conserves() {
+                true => gap_before(given, a)?.min(0.0),
+                false => kept_overlap(given, &node.normal, &sums[a]),
+            };
             response
         })?;
     }
