@@ -279,6 +279,11 @@
 /// offsets; derivatives by positions of t_n and by parameters.
 #define STICKSLIP_WEIGHTS_PERSISTENT 4
 
+/// Weights and normals of now, and gaps that are functions of the places alone. A step closes them up to what the last one has left, and its
+/// forces work exactly what they change by: nothing gains and nothing sinks, whatever slides and turns. For dynamics whose displacements follow
+/// the mean of the velocities. Multipliers and `normal` are along the normals half way between t_n and now (docs/formulation.md 20).
+#define STICKSLIP_WEIGHTS_CONSERVING 5
+
 /// Of now, unless weights are frozen, points decide or the host gives normals: then of the last commit. Default.
 #define STICKSLIP_NORMALS_AUTO 0
 

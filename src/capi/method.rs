@@ -39,6 +39,10 @@ pub const STICKSLIP_WEIGHTS_REFERENCE: i32 = 3;
 /// Not with (UNSUPPORTED): the paper's slip measure (STICKSLIP_SLIP_PAPER); points that decide (STICKSLIP_DECISION_POINTS);
 /// offsets; derivatives by positions of t_n and by parameters.
 pub const STICKSLIP_WEIGHTS_PERSISTENT: i32 = 4;
+/// Weights and normals of now, and gaps that are functions of the places alone. A step closes them up to what the last one has left, and its
+/// forces work exactly what they change by: nothing gains and nothing sinks, whatever slides and turns. For dynamics whose displacements follow
+/// the mean of the velocities. Multipliers and `normal` are along the normals half way between t_n and now (docs/formulation.md 20).
+pub const STICKSLIP_WEIGHTS_CONSERVING: i32 = 5;
 /// Of now, unless weights are frozen, points decide or the host gives normals: then of the last commit. Default.
 pub const STICKSLIP_NORMALS_AUTO: i32 = 0;
 /// Normals nu of the last commit, as in the paper: data of a step. Where surfaces turn or slide on curved ones the forces lag

@@ -352,6 +352,7 @@ impl Options {
             (Feature::FrozenWeights, !is_now),
             (Feature::WeightsCommitted, self.effective_weights() == Weights::Committed),
             (Feature::KeptOverlaps, self.keeps_overlaps()),
+            (Feature::Conserving, self.conserves()),
             (Feature::PaperSlip, self.slip == SlipMeasure::Paper),
             (Feature::Friction, law.opens && law.multipliers > 1),
             (Feature::Tied, !law.opens),

@@ -9,9 +9,9 @@
 
 use super::residual::Residual;
 use super::sums::NodeSums;
-use crate::error::Result;
+use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
-use crate::interface::data::conserving::{Conserving, NodeForce, NodeGap, Rigid};
+use crate::interface::data::conserving::{Conserving, Dependence, NodeForce, NodeGap, Rigid};
 use crate::interface::data::multiplier;
 use crate::interface::pairing::given::Given;
 use crate::law::NodeResponse;
@@ -36,6 +36,10 @@ pub fn gap_before<const N: usize>(given: Given<N>, a: usize) -> Result<f64> {
 /// Puts in place what the nodes do, of their gaps at the end and half way.
 pub fn settle<const N: usize>(given: Given<N>, (x1, x2): (&[Vec3], &[Vec3]), known: &mut Conserving) -> Result<()> {
     let (history, rigid) = (given.history(), Rigid::of(given.setup.surfaces()));
+    if given.setup.mortar.analytic.is_some() && history.x2 != x2 {
+        let text = "the analytic mortar side moves within a step: its work with conserving weights (STICKSLIP_WEIGHTS_CONSERVING) is not built; mesh its surface, or take other weights";
+        return Err(Error::new(Kind::Unsupported, text));
+    }
     let n1 = x1.len();
     let moved = |node: usize| match node.checked_sub(n1) {
         None => (x1[node] - history.x1[node], (x1[node] + history.x1[node]) * 0.5),
@@ -119,7 +123,14 @@ pub fn residual<const N: usize>(
     let [_, mean] = &known.gaps;
     for (a, (mean, force)) in mean.iter().zip(&known.forces).enumerate().filter(|(a, _)| given.setup.nodes.acts(*a)) {
         let (normal, tangential) = parts(&lambda[a], mean.normal);
+        // A surface in closed form has what is left of the sum, point by point as its weights are.
+        let opposite = given.setup.mortar.analytic.map(|_| {
+            let of_frame = |on: &&Dependence| on.node >= r.nonmortar.len();
+            let sum: f64 = mean.nodes.iter().filter(of_frame).map(|on| on.weight).sum();
+            -force.force.iter().sum::<Vec3>() / if sum == 0.0 { 1.0 } else { sum }
+        });
         for (on, d) in mean.nodes.iter().zip(&force.force) {
+            let d = opposite.filter(|_| on.node >= r.nonmortar.len()).map_or(*d, |sum| sum * on.weight);
             let f = d * normal + tangential * on.weight;
             match on.node.checked_sub(r.nonmortar.len()) {
                 None => r.nonmortar[on.node] += f,

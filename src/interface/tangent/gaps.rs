@@ -16,6 +16,7 @@ use crate::interface::data::active::Active;
 use crate::interface::data::conserving::{NodeGap, renew};
 use crate::interface::data::extent::Extent;
 use crate::interface::data::options::Tangent;
+use crate::interface::data::pairs::Weighted;
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::respond::Responses;
 use crate::interface::stages::sums::NodeSums;
@@ -145,6 +146,9 @@ pub fn gaps<const N: usize>(
             Ok(())
         })?;
     }
+    if setup.mortar.analytic.is_some() {
+        opposite(given, active, gaps)?;
+    }
     for f in 0..setup.nonmortar.host_facets() {
         let nodes = setup.nonmortar.host_nodes(f);
         for (k, &a) in nodes.iter().enumerate().take(setup.nonmortar.multipliers(f)) {
@@ -155,4 +159,21 @@ pub fn gaps<const N: usize>(
         }
     }
     Ok(())
+}
+
+/// Adds the weights of the points of an analytic surface's frame, which gaps do not depend on where it rests.
+fn opposite<const N: usize>(given: Given<N>, active: &Active, gaps: &mut [NodeGap]) -> Result<()> {
+    let (one, two) = given.setup.surfaces();
+    let mut add = |f: usize, g: usize, n: &dyn Fn(usize, usize) -> f64| -> Result<()> {
+        for (k, &a) in one.host_nodes(f).iter().enumerate().take(one.multipliers(f)) {
+            for (c, &node) in two.host_nodes(g).iter().enumerate() {
+                gaps[a].on(one.len() + node)?.weight -= n(k, c);
+            }
+        }
+        Ok(())
+    };
+    match active.weighted((one, two)) {
+        Weighted::Facets(pairs) => pairs.iter().try_for_each(|p| add(p.one, p.two, &|k, c| p.weights.ac[k][c])),
+        Weighted::Parents(pairs) => pairs.iter().try_for_each(|p| add(p.one, p.two, &|k, c| p.weights.ac[k][c])),
+    }
 }
