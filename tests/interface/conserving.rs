@@ -5,6 +5,7 @@ use crate::support::differences::Point;
 use crate::support::lines::*;
 use crate::support::max_abs;
 use crate::support::mesh::*;
+use crate::support::parents::*;
 use nalgebra::SVector;
 use stickslip::geometry::Vec3;
 use stickslip::interface::{Contact, Friction, MultiplierBasis, NO_WEAK_COVERAGE, Options, Stiffness, Weights};
@@ -105,53 +106,112 @@ fn identities<const N: usize>(mut s: Scene<N>) {
     assert!(answers.len() == now.len());
     let largest = max_abs(terms.iter().copied());
     let error = (work.iter().sum::<f64>() - terms.iter().sum::<f64>()).abs();
-    println!("{}: work {:e} of {largest:e}", s.name, error);
     assert!(largest > 1e-4 && error <= ROUNDING * largest.max(max_abs(work.iter().copied())), "{}: {error:e} of {largest:e}", s.name);
-    println!("{:?} {:?} {:?}", s.lambda, r.nonmortar, r.mortar);
     let resultant: Vec3 = forces.clone().sum();
     let size = forces.clone().map(Vec3::norm).sum::<f64>();
     assert!(resultant.norm() <= ROUNDING * size, "{}: {:e}", s.name, resultant.norm() / size);
     if N == 1 {
         let moment: Vec3 = forces.zip(from.zip(to)).map(|(f, (a, b))| ((a + b) * 0.5).cross(f)).sum();
+        println!("{}: moment {:e} of {size:e}, {:?} {:?} {:?}", s.name, moment.norm(), r.nonmortar, r.mortar, s.lambda);
         assert!(moment.norm() <= 10.0 * ROUNDING * size, "{}: {:e}", s.name, moment.norm() / size);
     }
 }
 
+fn parents_of<const N: usize>(friction: Friction) -> Vec<Scene<N>>
+where
+    Contact<N>: Create<N>,
+{
+    let rough = Roughness { warp: 0.02, jitter: 0.08, slide: 0.3 };
+    let of = |basis| {
+        let m = moved_parents::<N>(&options(friction, basis), [&[8], &[6]], rough, 0.1, false, 5);
+        let before = m.meshes.map(|mesh| mesh.x);
+        let name = format!("quadratic facets {friction:?} {basis:?}");
+        Scene { contact: m.contact, before, x1: m.x1, x2: m.x2, lambda: m.lambda, name }
+    };
+    BASES.map(of).into_iter().collect()
+}
+
 #[test]
 fn forces_work_what_the_gaps_change_by_and_have_neither_resultant_nor_moment() {
-    lines_of::<1>(Friction::None, [2, 2]).into_iter().for_each(identities);
-    lines_of::<3>(Friction::Coulomb, [2, 2]).into_iter().for_each(identities);
+    for nodes in [[2, 2], [3, 2], [3, 3]] {
+        lines_of::<1>(Friction::None, nodes).into_iter().for_each(identities);
+        lines_of::<3>(Friction::Coulomb, nodes).into_iter().for_each(identities);
+    }
     facets_of::<1>(Friction::None).into_iter().for_each(identities);
     facets_of::<3>(Friction::Coulomb).into_iter().for_each(identities);
+    parents_of::<1>(Friction::None).into_iter().for_each(identities);
+    parents_of::<3>(Friction::Coulomb).into_iter().for_each(identities);
 }
 
 #[test]
 fn the_tangent_of_lines_is_the_derivative() {
-    for basis in BASES {
-        let mut s = moved_lines::<1>(&options(Friction::None, basis), [2, 2], MEASURE, 11);
-        let error = s.difference_error();
-        println!("{basis:?}: {error:e}");
-        let mut t = moved_lines::<3>(&options(Friction::Coulomb, basis), [2, 2], MEASURE, 11);
-        let error_t = t.difference_error();
-        println!("{basis:?} with friction: {error_t:e}");
-        assert!(error <= DIFFERENCES && error_t <= DIFFERENCES);
+    for (basis, nodes) in BASES.into_iter().flat_map(|basis| [[2, 2], [3, 2], [3, 3]].map(|nodes| (basis, nodes))) {
+        let mut s = moved_lines::<1>(&options(Friction::None, basis), nodes, MEASURE, 11);
+        let mut t = moved_lines::<3>(&options(Friction::Coulomb, basis), nodes, MEASURE, 11);
+        let mut r = moved_lines::<3>(&options(Friction::Coulomb, basis), nodes, Measure::Axisymmetric, 11);
+        let errors = [s.difference_error(), t.difference_error(), r.difference_error()];
+        println!("{basis:?} {nodes:?}: {errors:e?}");
+        assert!(errors.iter().all(|error| *error <= DIFFERENCES), "{basis:?} {nodes:?}: {errors:e?}");
     }
+}
+
+fn is_the_derivative<const N: usize>(mut s: Scene<N>) {
+    let point = |s: &mut Scene<N>| Point { contact: &mut s.contact, x1: &s.x1, x2: &s.x2, lambda: &s.lambda }.difference_error(0.0);
+    let error = point(&mut s);
+    println!("{}: {error:e}", s.name);
+    assert!(error <= DIFFERENCES, "{}: {error:e}", s.name);
+    let plan = Point { contact: &mut s.contact, x1: &s.x1, x2: &s.x2, lambda: &s.lambda }.plan_error();
+    assert!(plan <= ROUNDING, "{}: {plan:e}", s.name);
 }
 
 #[test]
 fn the_tangent_of_facets_is_the_derivative() {
+    facets_of::<1>(Friction::None).into_iter().for_each(is_the_derivative);
+    facets_of::<3>(Friction::Coulomb).into_iter().for_each(is_the_derivative);
+}
+
+#[test]
+fn the_tangent_of_quadratic_facets_is_the_derivative() {
+    parents_of::<1>(Friction::None).into_iter().for_each(is_the_derivative);
+    parents_of::<3>(Friction::Coulomb).into_iter().for_each(is_the_derivative);
+}
+
+/// A step closes gaps up to what the last one has left, however far surfaces slide: the same function of the same places.
+#[test]
+fn the_bound_is_where_the_last_step_has_ended() {
     for mut s in facets_of::<1>(Friction::None) {
-        let point = Point { contact: &mut s.contact, x1: &s.x1, x2: &s.x2, lambda: &s.lambda };
-        let error = { point }.difference_error(0.0);
-        println!("{}: {error:e}", s.name);
-        assert!(error <= 1e-5, "{}: {error:e}", s.name);
+        let (x1, x2) = (s.x1.clone(), s.x2.clone());
+        let reached = s.gaps(&x1, &x2);
+        assert!(reached.iter().any(|g| *g < 0.0), "{}: nothing overlaps", s.name);
+        s.contact.commit(&x1, &x2, &s.lambda, None).unwrap();
+        let none = vec![SVector::<f64, 1>::zeros(); s.lambda.len()];
+        let answers = s.contact.responses(&x1, &x2, &none, None).unwrap();
+        let size = max_abs(reached.iter().copied());
+        for (a, answer) in answers.iter().enumerate() {
+            assert!((answer.gap_normal - reached[a]).abs() <= ROUNDING * size, "{}: node {a}", s.name);
+            assert!(answer.row[0].abs() <= ROUNDING * size || reached[a] > 0.0, "{}: node {a} presses", s.name);
+        }
     }
-    for mut s in facets_of::<3>(Friction::Coulomb) {
-        let mut point = Point { contact: &mut s.contact, x1: &s.x1, x2: &s.x2, lambda: &s.lambda };
-        let error = point.difference_error(0.0);
-        println!("{}: {error:e}", s.name);
-        assert!(error <= 1e-5, "{}: {error:e}", s.name);
-        let plan = point.plan_error();
-        assert!(plan <= ROUNDING, "{}: {plan:e}", s.name);
-    }
+}
+
+#[test]
+fn a_history_keeps_the_gaps() {
+    let of = options(Friction::None, MultiplierBasis::Standard);
+    let mut s = moved_lines::<1>(&of, [2, 2], MEASURE, 11);
+    s.contact.commit(&s.x1, &s.x2, &s.lambda, None).unwrap();
+    let mut fresh = moved_lines::<1>(&of, [2, 2], MEASURE, 11);
+    let (integers, reals) = s.contact.export_history().unwrap();
+    fresh.contact.import_history(&integers, &reals).unwrap();
+    let mut z = s.unknowns();
+    z.iter_mut().enumerate().for_each(|(k, z)| *z += 1e-3 * (k as f64).sin());
+    assert_eq!(s.residual(&z), fresh.residual(&z));
+    let mut other = moved_lines::<1>(&Options { weights: Weights::Current, ..of }, [2, 2], MEASURE, 11);
+    let error = other.contact.import_history(&integers, &reals).unwrap_err();
+    assert!(error.message.contains("discrete derivatives"), "{}", error.message);
+    let before = s.residual(&z);
+    let x1: Vec<_> = s.x1.iter().map(|x| x + Vec3::new(0.01, -0.01, 0.0)).collect();
+    s.contact.commit(&x1, &s.x2, &s.lambda, None).unwrap();
+    assert_ne!(s.residual(&z), before);
+    s.contact.roll_back().unwrap();
+    assert_eq!(s.residual(&z), before);
 }

@@ -116,6 +116,7 @@ rows! {
     NotBuilt [Points MidNodes] "" [Points MidNodes];
     NotBuilt [MovingFrame Conserving] "its own work is not counted" [MovingFrame Conserving];
     // What is set.
+    Meaningless [HostNormals Conserving] "gaps would be no functions of the places" [HostNormals Conserving];
     Meaningless [HostNormals NormalsNow] "they would not follow the motion" [NormalsNow HostNormals];
     NotBuilt [OwnLaw Points] "it is asked at nodes" [Points];
     Meaningless [Orthotropic Lines] "a plane or axisymmetric model has one direction to slip in" [Orthotropic];
@@ -125,7 +126,6 @@ rows! {
     NotBuilt [Offsets Conserving] "" [Conserving];
     NotBuilt [OwnLaw Conserving] "" [Conserving];
     NotBuilt [Orthotropic Conserving] "" [Conserving];
-    Meaningless [HostNormals Conserving] "gaps would be no functions of the places" [HostNormals Conserving];
     NotBuilt [Shared Conserving] "forces follow the gaps of all handles" [Shared];
     NotBuilt [Points Elsewhere] "tractions of a facet need the gaps of all of its nodes" [Points];
     NotBuilt [Points Shared] "tractions of a facet need the gaps of all of its nodes" [Points];
