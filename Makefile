@@ -213,8 +213,9 @@ wheel:
 python-examples: wheel
 	$(SAY) "Examples in Python"
 	@$(BUILD)/python/bin/pip install -q --force-reinstall --no-deps $(BUILD)/wheels/*.whl
-	@$(BUILD)/python/bin/pip install -q cffi numpy scipy pytest matplotlib scikit-fem felupe ngsolve mypy
+	@$(BUILD)/python/bin/pip install -q cffi numpy scipy pytest matplotlib scikit-fem felupe ngsolve mypy jax
 	@$(BUILD)/python/bin/python -m pytest -q -rs python/tests/test_examples.py python/tests/test_types.py
+	@$(BUILD)/python/bin/python -m pytest -q -rs python/tests/test_gradients.py -k jax
 
 hosts:
 	@.ci/setup hosts

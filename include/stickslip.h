@@ -261,7 +261,7 @@
 /// and friction.
 #define STICKSLIP_SLIP_PAPER 2
 
-/// Of now; with STICKSLIP_DECISION_POINTS and friction those of the last commit. Default.
+/// Of now; with STICKSLIP_DECISION_POINTS and friction, or an analytic surface, those of the last commit. Default.
 #define STICKSLIP_WEIGHTS_AUTO 0
 
 /// Weights of the current configuration, linearised: large sliding.
@@ -284,7 +284,7 @@
 /// the mean of the velocities. Multipliers and `normal` are along the normals half way between t_n and now (docs/formulation.md 20).
 #define STICKSLIP_WEIGHTS_CONSERVING 5
 
-/// Of now, unless weights are frozen, points decide or the host gives normals: then of the last commit. Default.
+/// Of now, unless weights are frozen or the host gives normals: then of the last commit. Default.
 #define STICKSLIP_NORMALS_AUTO 0
 
 /// Normals nu of the last commit, as in the paper: data of a step. Where surfaces turn or slide on curved ones the forces lag
@@ -294,7 +294,7 @@
 /// Normals of the current configuration, linearised: the size of a step does not decide how accurate normals are, a surface may
 /// turn by any angle within it, and a step without load moves nothing. Tied surfaces
 /// use no normals. Which facets look at each other follows the motion, too.
-/// Not with (UNSUPPORTED): frozen weights; points that decide (STICKSLIP_DECISION_POINTS); normals of the host.
+/// Not with (UNSUPPORTED): frozen weights; normals of the host.
 #define STICKSLIP_NORMALS_CURRENT 2
 
 /// Coulomb with mu = 0 at every node: no slip is computed (and none reported).
@@ -388,12 +388,11 @@
 /// answer, too.
 /// Not with (UNSUPPORTED): tied surfaces (STICKSLIP_FRICTION_TIED); friction and weights of now (STICKSLIP_WEIGHTS_CURRENT);
 /// friction and the paper's slip measure (STICKSLIP_SLIP_PAPER); standard multipliers (STICKSLIP_BASIS_STANDARD); persistent
-/// weights (STICKSLIP_WEIGHTS_PERSISTENT); normals of now (STICKSLIP_NORMALS_CURRENT); the augmented form
-/// (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (method.element_points); nodes that others carry
-/// (weak_coverage > 0, the default of dual multipliers); an analytic mortar side; facets with mid nodes; a law of one's own;
-/// offsets and weights of now (STICKSLIP_WEIGHTS_CURRENT); parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE); nodes
-/// that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes (stickslip_interface_set_committed) and
-/// friction; condensation; heat; derivatives by positions of t_n and by parameters.
+/// weights (STICKSLIP_WEIGHTS_PERSISTENT); the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps
+/// (method.element_points); nodes that others carry (weak_coverage > 0, the default of dual multipliers); an analytic mortar
+/// side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid nodes; a law of one's own; parts of an interface
+/// (owned has STICKSLIP_NODE_ELSEWHERE); nodes that handles share (owned has STICKSLIP_NODE_SHARED); condensation; heat;
+/// derivatives by positions of t_n and by parameters.
 #define STICKSLIP_DECISION_POINTS 1
 
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
@@ -433,8 +432,8 @@
 
 /// The mortar side is rigid and in closed form, STICKSLIP_SHAPE_...: no facets, no search. Its stickslip_surface has
 /// four nodes (of lines three), a frame that is fixed to it and that the host moves as a rigid body: see there.
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); offsets of the mortar nodes; offsets that follow
-/// from a shape.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS) and weights of now (STICKSLIP_WEIGHTS_CURRENT);
+/// offsets of the mortar nodes; offsets that follow from a shape.
 #define STICKSLIP_MORTAR_ANALYTIC 2
 
 /// A plane; of lines a straight line. Default.
@@ -1688,12 +1687,11 @@ int32_t stickslip_interface_set_previous(struct stickslip_interface *interface,
 /// and the first gaps of tied nodes are those of the creation. No commit can then be undone.
 ///
 /// slip (3 n1) [L]: what `stickslip_interface_states` had after the commit; NULL: none. Interfaces that remember no slip
-/// (tied, rough, without friction) ignore it. What a law remembers becomes 0; `stickslip_interface_set_law_states` afterwards.
-///
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS) and friction.
+/// (tied, rough, without friction) ignore it. What a law remembers becomes 0; `stickslip_interface_set_law_states` afterwards. So does
+/// what points that decide remember: a step begins with the tractions of the multipliers' field, and a kink within a facet is lost.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (commits < 0,
-/// mortar facets on each other, an analytic surface's frame), UNSUPPORTED.
+/// mortar facets on each other, an analytic surface's frame).
 /// Cost: one search and one integration; allocates.
 int32_t stickslip_interface_set_committed(struct stickslip_interface *interface,
                                           const double *x1,
@@ -2684,8 +2682,7 @@ int32_t stickslip_node_equilibrium(const struct stickslip_node *node,
 /// the history: set them again after a restart, before its import. Not of an analytic mortar side, whose shape or place says the
 /// same. On several processes each handle needs those of all of its nodes.
 ///
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS) and weights of now (STICKSLIP_WEIGHTS_CURRENT);
-/// persistent weights (STICKSLIP_WEIGHTS_PERSISTENT).
+/// Not with (UNSUPPORTED): persistent weights (STICKSLIP_WEIGHTS_PERSISTENT).
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, UNSUPPORTED, and where pairs are sought anew those of `stickslip_interface_set_previous`.
 /// Cost: a copy; where the largest offsets change, one search. Allocates.

@@ -44,6 +44,7 @@ class Run:
         self.face, self.steps = self.contact.interfaces[0], steps
         self.driven, held = np.flatnonzero(self.X[:, 1] == 0.5), np.flatnonzero(np.abs(self.X[:, 1]) == 0.5)
         self.fixed = np.concatenate([2 * held, 2 * held + 1])
+        self.outputs, self.ends = (steps,), (steps + 1, self.contact.size)
         self.shape = np.cos(np.arange(self.face.n1))
         self.along, self.down = np.zeros((2, self.X.size))
         self.along[2 * self.driven] = 1.0
@@ -74,19 +75,29 @@ class Run:
         """Their mean square, less the target."""
         return np.mean(np.square(self.forces(ends[1:], modulus) - self.target))
 
-    def gradient(self, ends, mu=0.3, modulus=1.0, press=0.03, offset=0.0):
-        """By all parameters, in one run backwards."""
-        k, n_host = modulus * self.parts[0] + self.parts[1], self.X.size
+    def forward(self, *parameters):
+        """The pulling forces, and the ends of the steps."""
+        ends = self.solve(*map(float, parameters))
+        return self.forces(ends[1:], float(parameters[1])), np.array(ends)
+
+    def pull(self, parameters, ends, weights):
+        """The derivatives of sum of weights x forces by all parameters, in one run backwards."""
+        modulus, n_host = float(parameters[1]), self.X.size
+        k = modulus * self.parts[0] + self.parts[1]
         slopes = np.zeros((len(ends), self.contact.size))
-        slopes[1:, :n_host] = np.outer(2 / self.steps * (self.forces(ends[1:], modulus) - self.target), k @ self.along)
-        d = dict.fromkeys(("mu", "modulus", "press", "offset"), 0.0)
+        slopes[1:, :n_host] = np.outer(weights, k @ self.along)
+        mu = soft = press = offset = 0.0
         for n, a, (g,) in backward(self.contact, ends, lambda n: k, lambda n: slopes[n], ("friction", "offsets1"), fixed=self.fixed):
-            soft = self.parts[0] @ ends[n][:n_host]
-            d["mu"] += g.friction.sum()
-            d["offset"] += g.offsets1 @ self.shape
-            d["press"] += (slopes[n, :n_host] + k @ a[:n_host]) @ self.down * min(1, 4 * n / self.steps)
-            d["modulus"] += a[:n_host] @ soft + slopes[n, :n_host] @ ends[n][:n_host] / modulus
-        return d
+            mu += g.friction.sum()
+            offset += g.offsets1 @ self.shape
+            press += (slopes[n, :n_host] + k @ a[:n_host]) @ self.down * min(1, 4 * n / self.steps)
+            soft += a[:n_host] @ self.parts[0] @ ends[n][:n_host] + slopes[n, :n_host] @ ends[n][:n_host] / modulus
+        return mu, soft, press, offset
+
+    def gradient(self, ends, mu=0.3, modulus=1.0, press=0.03, offset=0.0):
+        """Of the functional, by name."""
+        weights = 2 / self.steps * (self.forces(ends[1:], modulus) - self.target)
+        return dict(zip(("mu", "modulus", "press", "offset"), self.pull((mu, modulus, press, offset), ends, weights)))
 
 
 def differences(run, name, values, step):

@@ -62,6 +62,16 @@ def test_general_contact_of_several_bodies_and_of_one_with_itself(tmp_path):
     assert "refused" not in printed and "not be put" not in printed
 
 
+def test_press_and_pull_is_in_the_readme_and_slides():
+    if importlib.util.find_spec("skfem") is None:
+        pytest.skip("press_and_pull.py needs skfem, which is not installed")
+    ratios = [float(line.split("pull / press ")[1].split()[0]) for line in call("press_and_pull.py").splitlines()]
+    # It slides at mu 0.3, along a surface that is bent a little; while it sticks it is pulled by less.
+    assert len(ratios) == 10 and ratios[5] < 0.26 and np.abs(np.array(ratios[7:]) / 0.3 - 1).max() < 0.005
+    quoted = (EXAMPLES.parents[1] / "README.md").read_text().split("```python\n")[1].split("```")[0]
+    assert quoted in (EXAMPLES / "press_and_pull.py").read_text()
+
+
 def programs():
     return [part.split("```")[0] for part in (EXAMPLES.parent / "README.md").read_text().split("```python\n")[1:]]
 

@@ -195,3 +195,46 @@ def test_what_is_refused():
     case = Case("tri3")
     with pytest.raises(TypeError, match="there are previous1"):
         case.face.sensitivity(*case.now, case.lam, velocity=case.X1)
+
+
+VALUES = (0.3, 1.0, 0.03, 0.001)
+
+
+def test_jax():
+    jax = pytest.importorskip("jax")
+    from stickslip.jax import function
+
+    run = example.Run(steps=6)
+    forces = function(run)
+    with pytest.raises(stickslip.errors.InvalidValue, match="single precision"):
+        forces(*VALUES)
+    jax.config.update("jax_enable_x64", True)
+    weights = np.cos(np.arange(6))
+
+    def functional(*parameters):
+        return jax.numpy.vdot(forces(*parameters), weights)
+
+    outputs, ends = run.forward(*VALUES)
+    np.testing.assert_array_equal(forces(*VALUES), outputs)
+    exact = run.pull(VALUES, ends, weights)
+    for of in (jax.grad(functional, (0, 1, 2, 3)), jax.jit(jax.grad(functional, (0, 1, 2, 3)))):
+        np.testing.assert_allclose(of(*VALUES), exact, rtol=ROUNDING)
+
+
+def test_torch():
+    torch = pytest.importorskip("torch")
+    from stickslip.torch import function
+
+    forces = function(example.Run(steps=6))
+    parameters = [torch.tensor(v, dtype=torch.float64, requires_grad=True) for v in VALUES]
+    # The step of the differences is 1e-6, of what is 1e-3 to 1: truncation and rounding of forces of 1e-2.
+    assert torch.autograd.gradcheck(forces, parameters, eps=1e-6, atol=1e-7, rtol=1e-5)
+
+
+def test_a_run_of_another_shape_is_refused():
+    from stickslip import differentiable
+
+    run = example.Run(steps=6)
+    run.outputs = (5,)
+    with pytest.raises(stickslip.errors.InvalidSize, match=r"outputs of shape \(6,\); run.outputs says \(5,\)"):
+        differentiable.forward(run, VALUES)

@@ -26,7 +26,7 @@ pub const STICKSLIP_SLIP_INCREMENT: i32 = 1;
 /// Not with (UNSUPPORTED): persistent weights (STICKSLIP_WEIGHTS_PERSISTENT); points that decide (STICKSLIP_DECISION_POINTS)
 /// and friction.
 pub const STICKSLIP_SLIP_PAPER: i32 = 2;
-/// Of now; with STICKSLIP_DECISION_POINTS and friction those of the last commit. Default.
+/// Of now; with STICKSLIP_DECISION_POINTS and friction, or an analytic surface, those of the last commit. Default.
 pub const STICKSLIP_WEIGHTS_AUTO: i32 = 0;
 /// Weights of the current configuration, linearised: large sliding.
 pub const STICKSLIP_WEIGHTS_CURRENT: i32 = 1;
@@ -43,7 +43,7 @@ pub const STICKSLIP_WEIGHTS_PERSISTENT: i32 = 4;
 /// forces work exactly what they change by: nothing gains and nothing sinks, whatever slides and turns. For dynamics whose displacements follow
 /// the mean of the velocities. Multipliers and `normal` are along the normals half way between t_n and now (docs/formulation.md 20).
 pub const STICKSLIP_WEIGHTS_CONSERVING: i32 = 5;
-/// Of now, unless weights are frozen, points decide or the host gives normals: then of the last commit. Default.
+/// Of now, unless weights are frozen or the host gives normals: then of the last commit. Default.
 pub const STICKSLIP_NORMALS_AUTO: i32 = 0;
 /// Normals nu of the last commit, as in the paper: data of a step. Where surfaces turn or slide on curved ones the forces lag
 /// behind by half a step.
@@ -51,7 +51,7 @@ pub const STICKSLIP_NORMALS_COMMITTED: i32 = 1;
 /// Normals of the current configuration, linearised: the size of a step does not decide how accurate normals are, a surface may
 /// turn by any angle within it, and a step without load moves nothing. Tied surfaces
 /// use no normals. Which facets look at each other follows the motion, too.
-/// Not with (UNSUPPORTED): frozen weights; points that decide (STICKSLIP_DECISION_POINTS); normals of the host.
+/// Not with (UNSUPPORTED): frozen weights; normals of the host.
 pub const STICKSLIP_NORMALS_CURRENT: i32 = 2;
 /// Coulomb with mu = 0 at every node: no slip is computed (and none reported).
 pub const STICKSLIP_SHORTCUT_FRICTIONLESS: i32 = 1;
@@ -123,12 +123,11 @@ pub const STICKSLIP_DECISION_NODES: i32 = 0;
 /// answer, too.
 /// Not with (UNSUPPORTED): tied surfaces (STICKSLIP_FRICTION_TIED); friction and weights of now (STICKSLIP_WEIGHTS_CURRENT);
 /// friction and the paper's slip measure (STICKSLIP_SLIP_PAPER); standard multipliers (STICKSLIP_BASIS_STANDARD); persistent
-/// weights (STICKSLIP_WEIGHTS_PERSISTENT); normals of now (STICKSLIP_NORMALS_CURRENT); the augmented form
-/// (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (method.element_points); nodes that others carry
-/// (weak_coverage > 0, the default of dual multipliers); an analytic mortar side; facets with mid nodes; a law of one's own;
-/// offsets and weights of now (STICKSLIP_WEIGHTS_CURRENT); parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE); nodes
-/// that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes (stickslip_interface_set_committed) and
-/// friction; condensation; heat; derivatives by positions of t_n and by parameters.
+/// weights (STICKSLIP_WEIGHTS_PERSISTENT); the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps
+/// (method.element_points); nodes that others carry (weak_coverage > 0, the default of dual multipliers); an analytic mortar
+/// side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid nodes; a law of one's own; parts of an interface
+/// (owned has STICKSLIP_NODE_ELSEWHERE); nodes that handles share (owned has STICKSLIP_NODE_SHARED); condensation; heat;
+/// derivatives by positions of t_n and by parameters.
 pub const STICKSLIP_DECISION_POINTS: i32 = 1;
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
 pub const STICKSLIP_ROW_SCALE_FORCE: i32 = 0;

@@ -30,8 +30,8 @@ pub const STICKSLIP_MORTAR_DEFORMABLE: i32 = 0;
 pub const STICKSLIP_MORTAR_RIGID: i32 = 1;
 /// The mortar side is rigid and in closed form, STICKSLIP_SHAPE_...: no facets, no search. Its stickslip_surface has
 /// four nodes (of lines three), a frame that is fixed to it and that the host moves as a rigid body: see there.
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); offsets of the mortar nodes; offsets that follow
-/// from a shape.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS) and weights of now (STICKSLIP_WEIGHTS_CURRENT);
+/// offsets of the mortar nodes; offsets that follow from a shape.
 pub const STICKSLIP_MORTAR_ANALYTIC: i32 = 2;
 /// A plane; of lines a straight line. Default.
 pub const STICKSLIP_SHAPE_PLANE: i32 = 0;

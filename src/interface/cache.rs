@@ -387,6 +387,7 @@ impl<const N: usize> Cache<N> {
             + a.responses.own.bytes()
             + a.responses.points.bytes();
         let answers = given + of_law;
-        kept + answers + bytes::of_work(&self.work)
+        let conserving = bytes::of_active(&self.conserving.0.mean) + self.conserving.0.bytes();
+        kept + answers + conserving + bytes::of_work(&self.work)
     }
 }

@@ -325,12 +325,6 @@ impl<const N: usize> Contact<N> {
 
 /// Steps.
 impl<const N: usize> Contact<N> {
-    /// Puts a history in place with what belongs to its configuration; gives the old one back.
-    fn adopt(&mut self, settled: Settled) -> Result<Before> {
-        let pairing = Pairing::new(&self.setup, settled.filter, &settled.history)?;
-        Ok(self.put_in_place(pairing, settled.history, settled.active))
-    }
-
     fn put_in_place(&mut self, pairing: Pairing, history: History, active: bool) -> Before {
         self.step.forget_normals();
         let hidden = self.step.pairing.take_hidden();
@@ -347,15 +341,8 @@ impl<const N: usize> Contact<N> {
         let (surfaces, options) = (self.setup.surfaces(), &self.setup.options);
         let (_, active, work, _) = self.cache.leave();
         let known = Known { active, filter: None };
-        let mut new = commit::settled_at(surfaces, options, Extent::Whole, work, (x1, x2), known, History::empty())?;
-        memory::refill(&mut new.history.states, 0.0, self.step.history.states.len())?;
-        new.history.check_finite()?;
-        let mut next = self.begin(Pairing::new(&self.setup, new.filter, &new.history)?, new.history);
-        let points = unslipped(&self.setup, &mut next)?;
-        self.put_in_place(next.pairing, next.history, new.active);
-        self.cache.settle_points(points);
-        self.rollback = None;
-        Ok(())
+        let new = commit::settled_at(surfaces, options, Extent::Whole, work, (x1, x2), known, History::empty())?;
+        self.take_unslipped(new)
     }
 
     /// Takes (x1, x2) as t_n, after so many commits, with this slip since the first configuration `[L]` at every node: what
@@ -363,7 +350,6 @@ impl<const N: usize> Contact<N> {
     /// one was created with. No commit can then be undone.
     pub fn set_committed(&mut self, x1: &[Vec3], x2: &[Vec3], slip: &[Vec3], commits: i64) -> Result<()> {
         self.given().check_positions(x1, x2)?;
-        self.setup.refuse(&[(Feature::NodeHistory, true), (Feature::Friction, N == 3)])?;
         check_length("slip", slip.len(), self.setup.nonmortar.len())?;
         check_finite("slip", slip)?;
         if commits < 0 {
@@ -386,9 +372,17 @@ impl<const N: usize> Contact<N> {
         new.history.commits = commits;
         let kept = new.history.slip.len();
         new.history.slip.copy_from_slice(&slip[..kept]);
+        self.take_unslipped(new)
+    }
+
+    /// Begins a step at this new t_n, of which a law and points remember nothing yet. No commit can then be undone.
+    fn take_unslipped(&mut self, mut new: Settled) -> Result<()> {
         memory::refill(&mut new.history.states, 0.0, self.step.history.states.len())?;
         new.history.check_finite()?;
-        self.adopt(new)?;
+        let mut next = self.begin(Pairing::new(&self.setup, new.filter, &new.history)?, new.history);
+        let points = unslipped(&self.setup, &mut next)?;
+        self.put_in_place(next.pairing, next.history, new.active);
+        self.cache.settle_points(points);
         self.rollback = None;
         Ok(())
     }

@@ -11,6 +11,7 @@
 //! Integrals of shape functions alone are constants of the cell; over a plane there are no others, and no quadrature.
 
 use super::chain::{ForceDerivatives, ONE};
+use super::each_point::OverlapPoint;
 use super::gap::GapBlocks;
 use super::pair_weights::PairWeights;
 use super::segment::NonmortarFrame;
@@ -144,6 +145,24 @@ impl Kernel for Weights<'_> {
         }
         Ok(PairWeights::of_rows(nodes, &ab, &ac))
     }
+}
+
+/// Shows `to` the points of a facet, with the frame's coordinates of the closest points in the slots of a mortar facet.
+///
+/// # Errors
+/// As [`analytic_weights`]; what `to` refuses.
+pub fn each_surface_point(
+    frame: &NonmortarFrame,
+    surface: &AnalyticSurface,
+    rule: &Rule,
+    to: &mut dyn FnMut(OverlapPoint) -> Result<()>,
+) -> Result<()> {
+    let corners = corners(frame, surface);
+    (0..cell_points(frame, rule)).try_for_each(|i| {
+        let p = point(frame, surface, &corners, rule, i)?;
+        let other = surface.coordinates(p.place.on_surface());
+        to(OverlapPoint { weight: p.weight * p.area, own: p.n, other })
+    })
 }
 
 /// n_AB of the whole facet, rows A, lanes B, symmetric: int N_A N_B j over the cell, j the area element.

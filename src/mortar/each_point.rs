@@ -1,5 +1,6 @@
 //! The points of an overlap one by one: those that its weights are sums over (`weights.rs`), to rounding.
 
+use super::pair_weights::PairWeights;
 use super::points::{Fan, Maps, points, triangle_lanes};
 use super::segment::{KindKernel, Kinds, NonmortarFrame, Segment};
 use crate::error::Result;
@@ -16,6 +17,23 @@ pub struct OverlapPoint {
     pub own: [f64; MAX_CORNERS],
     /// N_C, of the mortar facet.
     pub other: [f64; MAX_CORNERS],
+}
+
+impl PairWeights {
+    /// The weights of those of these points where the field with these values at the non-mortar nodes is negative.
+    pub fn negative(points: &[OverlapPoint], field: &[f64; MAX_CORNERS]) -> PairWeights {
+        let mut n = PairWeights::default();
+        for OverlapPoint { weight, own, other } in points {
+            if own.iter().zip(field).map(|(n, value)| n * value).sum::<f64>() >= 0.0 {
+                continue;
+            }
+            for (a, own_a) in own.iter().enumerate() {
+                (0..MAX_CORNERS).for_each(|b| n.ab[a][b] += weight * own_a * own[b]);
+                (0..MAX_CORNERS).for_each(|c| n.ac[a][c] += weight * own_a * other[c]);
+            }
+        }
+        n
+    }
 }
 
 /// Shows `to` the points of a segment; not of points that stand for an overlap. Compiled once, for any processor.

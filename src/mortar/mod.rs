@@ -39,7 +39,7 @@ mod transport;
 mod weight_sums;
 mod weights;
 
-pub use analytic::{analytic_motion, analytic_motion_raised, analytic_weights};
+pub use analytic::{analytic_motion, analytic_motion_raised, analytic_weights, each_surface_point};
 pub use at_rest::{facet_motion, facet_motion_raised};
 pub use chain::{AreaDerivatives, ForceDerivatives, WeightDerivatives};
 pub use closed_part::ClosedPart;

@@ -7,6 +7,7 @@
 //! Dg_A = int N_A ((x - y) Dj + j D(x - y)/Dx N_B Dx_B) du dv.
 
 use super::analytic::{area_derivative, no_closest_point};
+use super::each_point::OverlapPoint;
 use super::field::MultiplierSpace;
 use super::segment::NonmortarFrame;
 use super::sub_motion::SubMotion;
@@ -129,6 +130,23 @@ impl SurfacePair<'_> {
             Ok(())
         })?;
         Ok(weights)
+    }
+
+    /// Shows `to` the points of a linear part, with the frame's coordinates of the closest ones in the slots of a mortar facet.
+    ///
+    /// # Errors
+    /// As [`SurfacePair::weights`]; what `to` refuses.
+    pub fn each_point(
+        &self,
+        x: &[Vec3; MAX_PARENT_NODES],
+        to: &mut dyn FnMut(OverlapPoint) -> Result<()>,
+    ) -> Result<()> {
+        self.for_points(|p| {
+            let x = self.position(&p, x);
+            let closest = self.surface.closest(x).ok_or_else(no_closest_point)?;
+            let other = self.surface.coordinates(x - closest.normal * closest.distance);
+            to(OverlapPoint { weight: p.weight * dot(&p.powers, &self.area.of), own: p.test, other })
+        })
     }
 
     /// How many multipliers are over the part.

@@ -106,6 +106,44 @@ fn tangents_are_those_of_differences_for_every_kind_on_every_kind() {
     assert!(seen.iter().all(|n| *n > 20), "open, cut, closed: {seen:?}");
 }
 
+/// Normals and weights of now, with offsets of both sides that differ from node to node.
+#[test]
+fn tangents_with_normals_of_now_and_offsets_are_those_of_differences() {
+    let now = Options { normals: Normals::Current, rule: &DEGREE_10, ..by_points(Weights::Current) };
+    let rough = Roughness { warp: 0.03, jitter: 0.08, slide: 0.02 };
+    let raise = |contact: &mut Contact<1>, (n1, n2): (usize, usize), seed: u64| {
+        let mut random = Random(seed);
+        let mut some = |n: usize| Some((0..n).map(|_| 0.02 * random.next()).collect());
+        contact.set_offsets([some(n1), some(n2)]).unwrap();
+    };
+    for (cells, of) in CELLS
+        .into_iter()
+        .flat_map(|c| [now, Options { rule: &DEGREE_10, ..by_points(Weights::Current) }].map(|of| (c, of)))
+    {
+        for seed in [3, 5, 8] {
+            let mut s = scene(of, cells, rough, seed);
+            let error = s.error();
+            assert!(error <= DIFFERENCES, "{:?} {seed}: {error:e}", of.normals);
+            raise(&mut s.contact, (s.x1.len(), s.x2.len()), seed);
+            let error = s.error();
+            assert!(error <= DIFFERENCES, "{:?} {seed}, with offsets: {error:e}", of.normals);
+        }
+    }
+    for (measure, normals) in [Measure::Thickness(0.7), Measure::Axisymmetric]
+        .into_iter()
+        .flat_map(|m| [(m, Normals::Current), (m, Normals::Committed)])
+    {
+        for seed in 1..5 {
+            let mut s = moved_lines::<1>(&Options { normals, ..now }, [2, 2], measure, seed);
+            let error = s.difference_error();
+            assert!(error <= DIFFERENCES, "{measure:?} {normals:?} {seed}: {error:e}");
+            raise(&mut s.contact, (s.x1.len(), s.x2.len()), seed);
+            let error = s.difference_error();
+            assert!(error <= DIFFERENCES, "{measure:?} {normals:?} {seed}, with offsets: {error:e}");
+        }
+    }
+}
+
 #[test]
 fn tangents_of_lines_are_those_of_differences() {
     let measures = [Measure::Thickness(0.7), Measure::Axisymmetric];
@@ -384,10 +422,6 @@ fn what_points_do_not_go_with_is_refused_by_name() {
     };
     refused(Options { friction: Friction::Tied, ..of }, "tied");
     refused(Options { basis: MultiplierBasis::Standard, ..of }, "BASIS_DUAL");
-    refused(Options { weights: Weights::Current, normals: Normals::Current, ..of }, "normals of now");
-    let mut raised = contact::<1>(&one, &two, false, Options { weights: Weights::Current, ..of });
-    let error = raised.set_offsets([Some(vec![0.1; 4]), None]).unwrap_err();
-    assert!(error.kind == Kind::Unsupported && error.message.contains("offsets"), "{error}");
     refused(Options { form: Form::Augmented, ..of }, "augmented");
     refused(Options { scheme: Scheme::Elements(&line::GAUSS_2), ..of }, "stand for overlaps");
     refused(Options { weak_coverage: 0.2, ..of }, "weak_coverage");

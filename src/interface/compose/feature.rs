@@ -72,7 +72,6 @@ features! {
     Heat "heat" "";
     Derivatives "derivatives by positions of t_n and by parameters" "";
     WeightsCommitted "weights of the last commit (STICKSLIP_WEIGHTS_COMMITTED)" "take STICKSLIP_WEIGHTS_CURRENT";
-    NodeHistory "a history of nodes (stickslip_interface_set_committed)" "import one of points (stickslip_interface_history_import)";
     ShapeOffsets "offsets that follow from a shape" "";
 }
 

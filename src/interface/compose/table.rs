@@ -98,8 +98,7 @@ rows! {
     Meaningless [Points Friction PaperSlip] "points remember what slipped before, and need the slip of a step" [PaperSlip];
     Meaningless [Points StandardBasis] "gaps of points are measured by dual functions" [StandardBasis];
     NotBuilt [Points KeptOverlaps] "overlaps are kept node by node" [KeptOverlaps Points];
-    NotBuilt [Points NormalsNow] "" [NormalsNow Points];
-    NotBuilt [Points Augmented] "" [Augmented Points];
+    Meaningless [Points Augmented] "forces of points follow sigma in either form" [Augmented];
     NotBuilt [Points ElementPoints] "" [ElementPoints];
     Meaningless [Points Carried] "no node has to be carried" [Carried];
     Meaningless [PaperSlip Conserving] "slip is that of the weights half way" [PaperSlip];
@@ -112,7 +111,7 @@ rows! {
     NotBuilt [ElementPoints Lines] "they are integrated over overlaps" [ElementPoints];
     Meaningless [FrozenNormals Lines] "it compares with codes of facets in space" [FrozenNormals];
     Meaningless [DualBasis AllNodes] "their areas would not be positive" [AllNodes DualBasis];
-    NotBuilt [Points Analytic] "" [Points];
+    NotBuilt [Points Analytic WeightsNow] "what is closed of a facet is not differentiated against a shape" [WeightsNow Points];
     NotBuilt [Points MidNodes] "" [Points MidNodes];
     NotBuilt [MovingFrame Conserving] "its own work is not counted" [MovingFrame Conserving];
     // What is set.
@@ -121,7 +120,6 @@ rows! {
     NotBuilt [OwnLaw Points] "it is asked at nodes" [Points];
     Meaningless [Orthotropic Lines] "a plane or axisymmetric model has one direction to slip in" [Orthotropic];
     Meaningless [MortarOffsets Analytic] "it has no nodes; move or resize the shape" [MortarOffsets];
-    NotBuilt [Offsets Points WeightsNow] "what they add to the gaps of points is not in the tangent" [WeightsNow Points];
     NotBuilt [Offsets KeptOverlaps] "what they overlap by at the last commit would count as closed, and one that grows would press nothing" [KeptOverlaps];
     NotBuilt [Offsets Conserving] "" [Conserving];
     NotBuilt [OwnLaw Conserving] "" [Conserving];
@@ -129,7 +127,6 @@ rows! {
     NotBuilt [Shared Conserving] "forces follow the gaps of all handles" [Shared];
     NotBuilt [Points Elsewhere] "tractions of a facet need the gaps of all of its nodes" [Points];
     NotBuilt [Points Shared] "tractions of a facet need the gaps of all of its nodes" [Points];
-    NotBuilt [NodeHistory Points Friction] "what points remember is not in it" [NodeHistory];
     // What is asked.
     Meaningless [Condensed StandardBasis] "their forces couple neighbours" [StandardBasis];
     Meaningless [Condensed Points] "a facet's mass matrix couples its multipliers" [Condensed Points];

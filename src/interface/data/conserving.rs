@@ -150,6 +150,17 @@ pub struct Conserving {
 }
 
 impl Conserving {
+    /// On the heap `[bytes]`, but for the pairs.
+    pub fn bytes(&self) -> usize {
+        let of_gap = |gap: &NodeGap| size_of::<NodeGap>() + gap.nodes.capacity() * size_of::<Dependence>();
+        let gaps = self.gaps.iter().flatten().map(of_gap).sum::<usize>();
+        let of_force = |force: &NodeForce| {
+            let vectors = [&force.force, &force.along, &force.moved, &force.arms];
+            size_of::<NodeForce>() + vectors.map(|v| v.capacity() * size_of::<Vec3>()).iter().sum::<usize>()
+        };
+        gaps + self.forces.iter().map(of_force).sum::<usize>()
+    }
+
     /// Of the surfaces that are apart: nothing.
     pub fn clear(&mut self, nodes: usize) -> Result<()> {
         self.mean.clear();

@@ -177,6 +177,8 @@ pub struct Options {
     pub normals: Normals,
     /// Whether the library chose the normals: those of a host take their place.
     pub normals_yield: bool,
+    /// Whether the weights are the library's choice, which yields to those of the last commit where an analytic surface takes no others.
+    pub weights_yield: bool,
     /// Threads that an evaluation may use, at least 1.
     pub threads: usize,
     /// Quadrature of triangles, and against an analytic mortar side.
@@ -246,6 +248,7 @@ impl Options {
             weights: Weights::Current,
             normals: Normals::Committed,
             normals_yield: false,
+            weights_yield: false,
             threads: 1,
             rule: &DEGREE_5,
             scheme: Scheme::default(),
@@ -276,13 +279,14 @@ impl Options {
         let standard = all_nodes || weights == Weights::Persistent;
         let choice = if standard { MultiplierBasis::Standard } else { MultiplierBasis::Dual };
         let basis = wishes.basis.unwrap_or(choice);
-        let settled = Options { weights, basis, normals_yield: wishes.normals.is_none(), ..self };
+        let yields = (wishes.normals.is_none(), wishes.weights.is_none());
+        let settled = Options { weights, basis, normals_yield: yields.0, weights_yield: yields.1, ..self };
         Options { normals: wishes.normals.unwrap_or(settled.best_normals()), ..settled }
     }
 
-    /// Those of now, unless the weights are frozen or points decide.
+    /// Those of now, unless the weights are frozen.
     fn best_normals(&self) -> Normals {
-        let follows = matches!(self.weights, Weights::Current | Weights::Conserving) && self.decision == Decision::Nodes;
+        let follows = matches!(self.weights, Weights::Current | Weights::Conserving);
         if follows { Normals::Current } else { Normals::Committed }
     }
 
@@ -295,6 +299,16 @@ impl Options {
             (true, false) => self.best_normals(),
         };
         Options { normals, ..self }
+    }
+
+    /// Opposite an analytic surface: points that decide take no weights of now there.
+    #[must_use]
+    pub fn beside_shape(self) -> Options {
+        if !self.decides_at_points() || !self.weights_yield {
+            return self;
+        }
+        let settled = Options { weights: Weights::Committed, ..self };
+        settled.beside_normals(false)
     }
 
     /// Refuses numbers outside their range.

@@ -3,10 +3,8 @@
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::law::Projected;
-use crate::line::{self, LineFacet, Measure};
 use crate::memory::Store;
-use crate::mortar::{NonmortarFrame, OverlapPoint, Segment, each_point};
-use crate::quadrature::Rule;
+use crate::mortar::OverlapPoint;
 use crate::shape::MAX_CORNERS;
 
 /// Reals that a point remembers: a vector.
@@ -50,17 +48,9 @@ pub struct PointFriction {
 }
 
 impl PointFriction {
-    /// Stores the points of the next pair; `None`: the facets have no overlap.
-    pub fn keep(&mut self, pair: Option<(&NonmortarFrame, &Segment)>, rule: &Rule) -> Result<()> {
-        if let Some((frame, segment)) = pair {
-            each_point(frame, segment, rule, &mut |point| self.points.store(point))?;
-        }
-        self.ends.store(self.points.len())
-    }
-
-    /// The same of a pair of lines.
-    pub fn keep_of_lines(&mut self, (one, two): (&LineFacet, &LineFacet), measure: Measure) -> Result<()> {
-        line::each_point(one, two, measure, &mut |point| self.points.store(point))?;
+    /// Stores the points of the next pair, those that `each` shows.
+    pub fn keep(&mut self, each: impl FnOnce(&mut dyn FnMut(OverlapPoint) -> Result<()>) -> Result<()>) -> Result<()> {
+        each(&mut |point| self.points.store(point))?;
         self.ends.store(self.points.len())
     }
 

@@ -50,6 +50,7 @@ impl<const N: usize> Setup<N> {
         mu: Vec<f64>,
         effects: Effects<N>,
     ) -> Result<Setup<N>> {
+        let options = if mortar.analytic.is_some() { options.beside_shape() } else { options };
         options.validate()?;
         if multiplier_equations.len() != nonmortar.len() {
             let text = text!(

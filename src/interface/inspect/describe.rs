@@ -54,7 +54,6 @@ fn normals_words<const N: usize>(setup: &Setup<N>) -> &'static str {
         _ if setup.nodes.normals.is_some() => "the host's",
         (true, _) => "of now, differentiated",
         (false, false) => "of the last commit (asked for)",
-        (false, true) if setup.decides_at_points() => "of the last commit (chosen: points decide)",
         (false, true) => "of the last commit (chosen: the weights are frozen)",
     }
 }
@@ -126,6 +125,9 @@ fn weights_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
             "of now; forces are discrete derivatives of the gaps (asked for): contact gives no energy"
         }
         Weights::Current | Weights::Conserving => "of now, differentiated (large sliding)",
+        Weights::Committed if setup.options.weights_yield => {
+            "frozen at the last commit (chosen: points decide), reused within a step"
+        }
         Weights::Committed => "frozen at the last commit (asked for), reused within a step",
         Weights::Persistent => {
             "frozen at the last commit, where overlaps count as closed (asked for): contact gives no energy"

@@ -20,9 +20,11 @@ use crate::interface::data::parents::Parents;
 use crate::interface::data::points::{Closed, OfNodes, PointFacet, PointPair, Points, add_mass};
 use crate::interface::pairing::given::Given;
 use crate::law::{NodeResponse, State};
-use crate::line::{LineFacet, LineWeights, Measure};
+use crate::line::{self, LineFacet, LineWeights, Measure};
 use crate::memory::{self, Store};
-use crate::mortar::{ClosedPart, MultiplierSpace, PairWeights, ParentWeights, Segment};
+use crate::mortar::{
+    ClosedPart, MultiplierSpace, OverlapPoint, PairWeights, ParentWeights, Segment, each_point, each_surface_point,
+};
 use crate::points::{STIFFNESS, of_facet, of_line};
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
 use nalgebra::SVector;
@@ -123,15 +125,21 @@ impl Points {
         let f = pairs[0].one;
         let frame = one.frame(f, x.0, &self.planes)?;
         let mut sums = FacetSums::new(&frame);
+        let rule = given.setup.options.rule;
         for pair in pairs {
-            let segment = Segment::new(&frame, &two.facet(pair.two, x.1))?;
-            let integrate = |s: &Segment| PairWeights::integrate(&frame, s, given.setup.options.rule);
-            let whole = segment.as_ref().map_or_else(PairWeights::default, integrate);
+            let whole = if two.analytic.is_some() {
+                self.whole_over_surface(|to| each_surface_point(&frame, &two.analytic_at(x.1)?, rule, to))
+                    .map_err(one.at(f))?
+            } else {
+                let segment = Segment::new(&frame, &two.facet(pair.two, x.1))?;
+                if given.setup.has_point_friction() {
+                    self.friction.keep(|to| segment.as_ref().map_or(Ok(()), |s| each_point(&frame, s, rule, to)))?;
+                }
+                let integrate = |s: &Segment| PairWeights::integrate(&frame, s, rule);
+                segment.as_ref().map_or_else(PairWeights::default, integrate)
+            };
             sums.add(&whole, &[0.0; MAX_CORNERS]);
             self.pairs.store(PointPair { two: pair.two, whole, dual: pair.weights })?;
-            if given.setup.has_point_friction() {
-                self.friction.keep(segment.as_ref().map(|s| (&frame, s)), given.setup.options.rule)?;
-            }
         }
         let nodes = one.facets[f].as_slice();
         let sizes = std::array::from_fn(|k| nodes.get(k).map_or(0.0, |&a| given.size(a)));
@@ -140,26 +148,43 @@ impl Points {
     }
 
     fn settle_line<const N: usize>(&mut self, given: Given<N>, pairs: &[ParentRecord]) -> Result<()> {
-        let ((one, _), x, first, f) = (given.setup.surfaces(), given.weighted_at(), self.pairs.len(), pairs[0].one);
-        let Some((parents, _, _)) = lines(given) else { return Ok(()) };
-        let (mut mass, mut length) = (OfNodes::default(), 0.0);
+        let ((one, two), x, first, f) = (given.setup.surfaces(), given.weighted_at(), self.pairs.len(), pairs[0].one);
+        let (Some(parents), mut mass) = (one.parents.as_ref(), OfNodes::default()) else { return Ok(()) };
         for pair in pairs {
-            let Some((own, other, measure)) = line_pair(given, x, (f, pair.two)) else { continue };
-            let whole = of_line_weights(&LineWeights::new(&own, &other, MultiplierSpace::Corner, measure));
+            let whole = if two.analytic.is_some() {
+                let (part, rule) = (parents.parts(f).start, given.setup.options.rule);
+                let (frame, surface) = (one.frame(part, x.0, &self.planes)?, two.analytic_at(x.1)?);
+                self.whole_over_surface(|to| {
+                    parents.over_surface(part, (&frame, x.0), (&surface, rule), |pair, x| pair.each_point(x, to))
+                })
+                .map_err(one.at(part))?
+            } else {
+                let Some((own, other, measure)) = line_pair(given, x, (f, pair.two)) else { continue };
+                if given.setup.has_point_friction() {
+                    self.friction.keep(|to| line::each_point(&own, &other, measure, to))?;
+                }
+                of_line_weights(&LineWeights::new(&own, &other, MultiplierSpace::Corner, measure))
+            };
             add_mass(&mut mass, &whole);
-            length = (own.x[1] - own.x[0]).norm();
-            let dual = of_parent_weights(&pair.weights);
-            self.pairs.store(PointPair { two: pair.two, whole, dual })?;
-            if given.setup.has_point_friction() {
-                self.friction.keep_of_lines((&own, &other), measure)?;
-            }
+            self.pairs.store(PointPair { two: pair.two, whole, dual: of_parent_weights(&pair.weights) })?;
         }
         let area: f64 = parents.areas(f, x.0, parents.space)?.iter().take(MAX_PARENT_NODES).sum();
         let covered = mass.iter().flatten().sum::<f64>();
         let nodes = one.host_nodes(f);
+        let length = (x.0[nodes[1]] - x.0[nodes[0]]).norm();
         let stabilisation = of_line(length, [given.size(nodes[0]), given.size(nodes[1])]);
         let normal = Plane::of(&one.facet(parents.parts(f).start, x.0))?.e;
         self.store_facet((f, nodes), first, normal, (Coverage::of(covered / area), mass, stabilisation))
+    }
+
+    /// The weights of a facet over an analytic surface, and its points, which are kept: those of its closed part are sums over them.
+    fn whole_over_surface(
+        &mut self,
+        each: impl FnOnce(&mut dyn FnMut(OverlapPoint) -> Result<()>) -> Result<()>,
+    ) -> Result<PairWeights> {
+        let first = self.friction.points.len();
+        self.friction.keep(each)?;
+        Ok(PairWeights::negative(&self.friction.points[first..], &[-1.0; MAX_CORNERS]))
     }
 
     /// `outward`: out of the non-mortar body; `stabilisation`: over the covered area.
@@ -191,7 +216,7 @@ impl Points {
     /// What each facet is at the nodes' sigma, with the weights of the closed parts of those that are cut. `active`: with weights of
     /// now, whose points move, a closed part is a region of its own (docs/formulation.md 16.8).
     fn close<const N: usize>(&mut self, given: Given<N>, active: Option<&Active>) -> Result<()> {
-        let Points { facets, pairs, planes, sigma, states, closed, .. } = self;
+        let Points { facets, pairs, planes, sigma, states, closed, friction, .. } = self;
         let (x, planes) = match active {
             Some(active) => ((&active.x1[..], &active.x2[..]), &active.normals),
             None => (given.weighted_at(), &*planes),
@@ -211,6 +236,12 @@ impl Points {
                 continue;
             }
             let of_pairs = &pairs[facet.places()];
+            if given.setup.mortar.analytic.is_some() {
+                for place in facet.places() {
+                    closed.store(PairWeights::negative(&friction.points[friction.of_pair(place)], &sigma))?;
+                }
+                continue;
+            }
             if given.setup.has_parents() {
                 for pair in of_pairs {
                     let close = |(own, other, measure): (LineFacet, LineFacet, Measure)| {

@@ -4,7 +4,7 @@ use super::union::{Pairs, Walk};
 use crate::error::Result;
 use crate::interface::data::lists::Lists;
 use crate::interface::data::points::Points;
-use crate::interface::data::surface::Surface;
+use crate::interface::data::setup::Setup;
 use crate::memory::Store;
 
 /// The facets around each node, with the mortar nodes of each.
@@ -17,11 +17,14 @@ pub struct Around {
     /// By non-mortar nodes, and by mortar nodes.
     of_node: Lists,
     below: Lists,
+    /// By non-mortar nodes the facets whose nodes turn their normals, also those without pairs; `None`: normals are held.
+    turning: Option<Lists>,
 }
 
 impl Around {
-    /// Those that have pairs; `moves`: the mortar side does; `points`: whose facets they are.
-    pub fn of((one, two): (&Surface, &Surface), moves: bool, pairs: Pairs, points: Option<&Points>) -> Result<Around> {
+    /// Those that have pairs; `points`: whose facets they are.
+    pub fn of<const N: usize>(setup: &Setup<N>, pairs: Pairs, points: Option<&Points>) -> Result<Around> {
+        let ((one, two), moves) = (setup.surfaces(), setup.mortar_moves());
         let (mut all, mut walk, mut of_facet) = (Around::default(), Walk::through(pairs, 0..usize::MAX), Vec::new());
         let mut ahead = points.map_or(&[][..], |points| &points.facets).iter().enumerate().peekable();
         all.mortar.first.store(0)?;
@@ -44,7 +47,17 @@ impl Around {
         all.below = Lists::of(two.len(), |give| {
             (0..facets.len()).for_each(|k| all.mortar.get(k).iter().for_each(|&c| give(c as usize, k as u32)));
         })?;
+        if setup.options.follows_normals() {
+            all.turning = Some(Lists::of(one.len(), |give| {
+                (0..one.host_facets()).for_each(|f| one.host_nodes(f).iter().for_each(|&a| give(a, f as u32)));
+            })?);
+        }
         Ok(all)
+    }
+
+    /// The facets of the host whose nodes turn the normal of A.
+    pub fn turning(&self, a: usize) -> &[u32] {
+        self.turning.as_ref().map_or(&[], |turning| turning.get(a))
     }
 
     pub fn around(&self, a: usize) -> &[u32] {

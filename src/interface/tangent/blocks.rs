@@ -20,6 +20,7 @@ use super::union::{UnionPair, Walk};
 use crate::element::{FacetResponse, NodeTangent, Rows};
 use crate::error::Result;
 use crate::geometry::Vec3;
+use crate::interface::data::host_facets::NormalDerivatives;
 use crate::interface::data::multiplier::force_traction;
 use crate::interface::data::options::{Form, MultiplierBasis};
 use crate::interface::pairing::given::Given;
@@ -244,8 +245,16 @@ pub fn of_nodes<const N: usize>(
     }
     if given.setup.decides_at_points() {
         let normals = task.normals;
-        let numbers =
-            numbers.map(|n| PointNumbers { points: &n.responses.points, sums: n.sums, normals, active: n.active });
+        let turns = numbers.and_then(|n| n.turns.as_ref());
+        let turn = |at| turns.map_or_else(NormalDerivatives::default, |turns| turns.of_normal(given, at));
+        let turn: &dyn Fn(_) -> _ = &turn;
+        let numbers = numbers.map(|n| PointNumbers {
+            points: &n.responses.points,
+            sums: n.sums,
+            normals,
+            active: n.active,
+            turns: turns.map(|_| turn),
+        });
         // With friction there are three multipliers a node, and only there: known when this is compiled.
         if N == 3 {
             return point_friction::blocks((given, pairs), numbers.as_ref(), emitter);

@@ -21,6 +21,7 @@ pub mod parents;
 pub mod point_friction;
 pub mod point_motion;
 pub mod point_numbers;
+pub mod point_offsets;
 mod point_rows;
 pub mod points;
 pub mod read;

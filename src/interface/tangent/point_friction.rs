@@ -138,8 +138,8 @@ pub fn blocks<const N: usize>(
     numbers: Option<&PointNumbers>,
     emitter: &mut Emitter<N>,
 ) -> Result<()> {
-    let (surfaces, moves) = (given.setup.surfaces(), given.setup.effects.moves());
-    let around = Around::of(surfaces, moves, pairs, numbers.map(|numbers| numbers.points))?;
+    let (surfaces, moves) = (given.setup.surfaces(), given.setup.mortar_moves());
+    let around = Around::of(given.setup, pairs, numbers.map(|numbers| numbers.points))?;
     let slopes = Slopes::of((surfaces, &around, moves, false), numbers.map(|n| (n, Along::All)))?;
     point_rows::emit::<Found, N>(given, (&around, &slopes), numbers, emitter)
 }

@@ -5,12 +5,14 @@
 use super::around::Around;
 use super::emission::{Emitter, NodeBlock, Place};
 use super::point_numbers::PointNumbers;
+use super::point_offsets::{RaisedFacet, of_nodes};
 use crate::dual::{DualBasis, whole_area_derivative};
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::active::Active;
 use crate::interface::data::options::Tangent;
 use crate::interface::data::points::{Closed, PointFacet, Points};
+use crate::interface::data::surface::Surface;
 use crate::interface::pairing::given::Given;
 use crate::interface::pairing::overlaps::FacetOverlaps;
 use crate::interface::stages::facet::dual_basis;
@@ -18,11 +20,14 @@ use crate::interface::stages::points::line_pair;
 use crate::line::{LineDerivatives, LineFacet, MAX_LINE_NODES, Measure};
 use crate::memory::{self, Store};
 use crate::mortar::{
-    AreaDerivatives, ClosedPart, ForceDerivatives, MORTAR, MultiplierSpace, ParentWeights, Raised, pair_motion_raised,
+    AreaDerivatives, ClosedPart, ForceDerivatives, MORTAR, MultiplierSpace, PAIR_NODES, ParentWeights, Raised,
+    offset_motion, pair_motion_raised,
 };
 use crate::shape::MAX_CORNERS;
 
 type OfCorners = [f64; MAX_CORNERS];
+
+const NO_AREAS: AreaDerivatives = [[[0.0; MAX_CORNERS]; 3]; PAIR_NODES];
 
 /// Derivatives with respect to one component of one node, summed over a facet's pairs, lanes A or B.
 #[derive(Clone, Copy, Debug, Default)]
@@ -31,6 +36,8 @@ struct Column {
     areas: OfCorners,
     /// Dgamma_A - sum_B Dm_AB h_B.
     gaps: OfCorners,
+    /// Do_A - sum_B Dm_AB eta_B of the nodes' offsets (docs/formulation.md 15.2).
+    offsets: OfCorners,
     /// D int sigma N_B over what is closed, and D sum_B m_AB lambda_B, at fixed values of nodes.
     forces: OfCorners,
     multipliers: OfCorners,
@@ -41,6 +48,8 @@ struct Whole {
     basis: DualBasis,
     /// h_A, of gamma_A along e, the plane's normal out of the body.
     heights: OfCorners,
+    /// eta_A of the nodes' offsets.
+    eta: OfCorners,
     e: Vec3,
     /// De with respect to its nodes.
     turn: [Mat3; MAX_CORNERS],
@@ -148,6 +157,7 @@ impl Table {
         let (sums, basis) = dual_basis(one, facet.one, (frame, &self.overlaps.segments), weights)?;
         let Some(basis) = basis else { return Ok(None) };
         let (heights, sigma) = (basis.heights(&sums.gamma), points.acting(at));
+        let lifted = RaisedFacet::of(given, points, facet, &basis);
         let (plane, fields) = (&frame.plane, [sigma, facet.of(&points.multipliers), [0.0; MAX_CORNERS]]);
         let mut forces = ForceDerivatives::default();
         for ((place, segment), weights) in facet.places().zip(&self.overlaps.segments).zip(weights) {
@@ -156,6 +166,11 @@ impl Table {
             let gap = pair_motion_raised((frame, segment, rule), weights, &fields, &mut forces, raised);
             if matches!(points.states[at], Closed::Part(_)) {
                 ClosedPart::new(frame, segment, &sigma).motion(&mut forces);
+            }
+            let mut offsets = NO_AREAS;
+            if let Some(raised) = &lifted {
+                let two = &of_nodes(two, two.host_nodes(points.pairs[place].two));
+                offset_motion((frame, segment, rule), (&raised.above, two), &mut offsets);
             }
             let nodes = two.facets[points.pairs[place].two].as_slice();
             let column_of = |c: usize| mortar.iter().position(|known| *known as usize == c).map(|c| facet.n + c);
@@ -166,6 +181,7 @@ impl Table {
                     let to = &mut self.columns[column][j];
                     add(&mut to.areas, &areas[slot][j]);
                     add(&mut to.gaps, &gap.dgamma[slot][j]);
+                    add(&mut to.offsets, &offsets[slot][j]);
                     add(&mut to.forces, &forces.one[slot][j][0]);
                     add(&mut to.multipliers, &forces.one[slot][j][1]);
                     for (l, &c) in nodes.iter().enumerate() {
@@ -178,7 +194,8 @@ impl Table {
         }
         let tilt = |k: usize| (plane.t1 * plane.tilt[0][k] + plane.t2 * plane.tilt[1][k]) * plane.e.transpose();
         let (turn, area) = (std::array::from_fn(tilt), whole_area_derivative(frame));
-        Ok(Some(Whole { basis, heights, e: plane.e, turn, area }))
+        let eta = lifted.map_or([0.0; MAX_CORNERS], |raised| raised.eta);
+        Ok(Some(Whole { basis, heights, eta, e: plane.e, turn, area }))
     }
 
     /// The same of a line.
@@ -203,7 +220,9 @@ impl Table {
             }
         }
         let heights = basis.heights(&gamma);
-        let mut whole = Whole { basis, heights, e, turn: Default::default(), area: Default::default() };
+        let raised = RaisedFacet::of(given, points, facet, &basis);
+        let eta = raised.as_ref().map_or([0.0; MAX_CORNERS], |raised| raised.eta);
+        let mut whole = Whole { basis, heights, eta, e, turn: Default::default(), area: Default::default() };
         for place in facet.places() {
             let Some((own, other, measure)) = line(place) else { continue };
             let (t, along) = ((own.x[1] - own.x[0]).normalize(), own.x[1] - own.x[0]);
@@ -216,6 +235,9 @@ impl Table {
             let weights = active.integrated_parent(place);
             let pair = (&own, &other, measure);
             self.add_line((points, at), pair, (weights, &whole, above(&own, &other)), (nodes, mortar));
+            if let Some(raised) = &raised {
+                self.add_line_offsets(pair, raised, two, (nodes, mortar));
+            }
         }
         Ok(Some(whole))
     }
@@ -256,7 +278,29 @@ impl Table {
         }
     }
 
-    /// The share of d sigma_A / dx: rhat_A / D_A (nu_A . D(phi m_A h_A e) - gh_A D(phi m_A)).
+    /// Adds what offsets of the nodes have of a pair of lines.
+    fn add_line_offsets(
+        &mut self,
+        (own, other, measure): (&LineFacet, &LineFacet, Measure),
+        raised: &RaisedFacet,
+        two: &Surface,
+        (nodes, mortar): (&[usize], &[u32]),
+    ) {
+        let all = LineDerivatives::new(own, other, MultiplierSpace::Corner, measure);
+        let (h, d) = (&raised.above, of_nodes(two, nodes));
+        for (slot, j) in (0..4).flat_map(|slot| (0..2).map(move |j| (slot, j))) {
+            let column_of = |c: usize| mortar.iter().position(|known| *known as usize == c).map(|c| 2 + c);
+            let Some(column) = (if slot < 2 { Some(slot) } else { column_of(nodes[slot - 2]) }) else { continue };
+            let of = 2 * if slot < 2 { slot } else { MAX_LINE_NODES + slot - 2 } + j;
+            for a in 0..2 {
+                let (ab, ac) = (&all.ab[a], &all.ac[a]);
+                self.columns[column][j].offsets[a] +=
+                    ab[0][of] * h[0] + ab[1][of] * h[1] + ac[0][of] * d[0] + ac[1][of] * d[1];
+            }
+        }
+    }
+
+    /// The share of d sigma_A / dx: rhat_A / D_A (nu_A . D(phi m_A h_A e) + D(phi m_A eta_A) - gh_A D(phi m_A)).
     fn put_slopes(
         &self,
         PointNumbers { points, sums, normals, .. }: &PointNumbers,
@@ -268,13 +312,15 @@ impl Table {
         for (column, j) in (0..n).flat_map(|column| (0..3).map(move |j| (column, j))) {
             let of = &self.columns[column][j];
             let (areas, gaps) = (whole.faded_areas(column, j, of), basis.dual(&of.gaps));
+            let offsets = basis.dual(&of.offsets);
             let turn =
                 whole.turn.get(column).filter(|_| column < facet.n).map_or(Vec3::zeros(), |t| t.column(j).into());
             for (l, &a) in facet.nodes().iter().enumerate().filter(|(_, a)| points.is_covered[**a]) {
                 let (nu, rhat) = (normals[a], points.rhat[a]);
                 let gap = whole.e * (gaps[l] + areas[l] * whole.heights[l]) + turn * (covered[l] * whole.heights[l]);
                 let height = nu.dot(&sums[a].gap_now) / sums[a].coverage;
-                slopes[l * n + column][j] += rhat / sums[a].coverage * (nu.dot(&gap) - height * areas[l]);
+                let offset = offsets[l] + areas[l] * whole.eta[l];
+                slopes[l * n + column][j] += rhat / sums[a].coverage * (nu.dot(&gap) + offset - height * areas[l]);
             }
         }
     }

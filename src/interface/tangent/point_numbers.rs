@@ -3,6 +3,7 @@
 use super::around::Around;
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
+use crate::interface::data::host_facets::NormalDerivatives;
 use crate::interface::data::points::{Closed, Points};
 use crate::interface::stages::sums::NodeSums;
 
@@ -14,6 +15,8 @@ pub struct PointNumbers<'a> {
     pub normals: &'a [Vec3],
     /// The pairs whose weights are differentiated; `None`: no weights are.
     pub active: Option<&'a Active>,
+    /// Dnu of a facet's node, by facet and place, where normals follow the motion.
+    pub turns: Option<&'a dyn Fn((usize, usize)) -> NormalDerivatives>,
 }
 
 impl PointNumbers<'_> {

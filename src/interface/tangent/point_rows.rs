@@ -132,6 +132,6 @@ pub fn emit<T: Found<N>, const N: usize>(
     let (sums, of, found, acting) = (RowSums::of(given.setup.surfaces())?, Vec::new(), Vec::new(), Vec::new());
     let mut rows = Rows::<T, N> { given, around, numbers, slopes, sums, of, found, acting };
     (0..given.nodes()).try_for_each(|i| rows.emit_own(i, emitter))?;
-    let mortar = if given.setup.effects.moves() { given.setup.mortar.len() } else { 0 };
+    let mortar = if given.setup.mortar_moves() { given.setup.mortar.len() } else { 0 };
     (0..mortar).try_for_each(|c| rows.emit_mortar(c, emitter))
 }

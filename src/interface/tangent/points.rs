@@ -112,8 +112,8 @@ pub fn blocks<const N: usize>(
     numbers: Option<&PointNumbers>,
     emitter: &mut Emitter<N>,
 ) -> Result<()> {
-    let (surfaces, moves) = (given.setup.surfaces(), given.setup.effects.moves());
-    let around = Around::of(surfaces, moves, pairs, numbers.map(|numbers| numbers.points))?;
+    let (surfaces, moves) = (given.setup.surfaces(), given.setup.mortar_moves());
+    let around = Around::of(given.setup, pairs, numbers.map(|numbers| numbers.points))?;
     let motions = match numbers.and_then(|numbers| Some((numbers, numbers.active?))) {
         Some(numbers) => Some(of_facets(given, numbers, &around, emitter)?),
         None => None,

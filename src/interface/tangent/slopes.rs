@@ -72,8 +72,13 @@ impl Slopes {
                 match numbers {
                     None => finder.reach(sides, a)?,
                     Some((numbers, _)) if !numbers.acts(a, around) => {}
-                    Some((_, Along::Normals(Some(motions)))) => finder.moving(sides, a, motions)?,
-                    Some((numbers, Along::Normals(None))) => finder.held(sides, a, numbers, numbers.normals[a])?,
+                    Some((numbers, Along::Normals(motions))) => {
+                        match motions {
+                            Some(motions) => finder.moving(sides, a, motions)?,
+                            None => finder.held(sides, a, numbers, numbers.normals[a])?,
+                        }
+                        finder.turning(sides, a, numbers)?;
+                    }
                     Some((numbers, Along::All)) => finder.held(sides, a, numbers, Vec3::repeat(1.0))?,
                 }
             }
@@ -99,6 +104,9 @@ impl Finder<'_> {
     /// The nodes alone.
     fn reach(&mut self, ((one, _), around, _, own): Sides, a: usize) -> Result<()> {
         self.place(a)?;
+        for &f in around.turning(a) {
+            one.host_nodes(f as usize).iter().try_for_each(|&b| self.place(b).map(|_| ()))?;
+        }
         for &k in around.around(a) {
             for &b in one.host_nodes(around.facets[k as usize]).iter().filter(|_| own) {
                 self.place(b)?;
@@ -141,6 +149,21 @@ impl Finder<'_> {
             let nodes = own.iter().copied().chain(mortar.iter().map(|&c| one.len() + c as usize));
             for (node, slope) in nodes.zip(motions.slopes(k, l, own.len() + mortar.len())) {
                 let place = self.place(node)?;
+                (0..3).for_each(|i| self.of.slopes[place][i] += slope[i]);
+            }
+        }
+        Ok(())
+    }
+
+    /// With normals of now: (rhat_A / D_A) g_A . Dnu_A.
+    fn turning(&mut self, ((one, _), around, ..): Sides, a: usize, numbers: &PointNumbers) -> Result<()> {
+        let Some(turns) = numbers.turns else { return Ok(()) };
+        let gap = numbers.sums[a].gap_now * (numbers.points.rhat[a] / numbers.sums[a].coverage);
+        for f in around.turning(a).iter().map(|&f| f as usize) {
+            let nodes = one.host_nodes(f);
+            let Some(k) = nodes.iter().position(|&b| b == a) else { continue };
+            for (column, dnu) in turns((f, k)).as_slice() {
+                let (place, slope) = (self.place(nodes[*column])?, dnu.transpose() * gap);
                 (0..3).for_each(|i| self.of.slopes[place][i] += slope[i]);
             }
         }

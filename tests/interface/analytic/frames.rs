@@ -3,13 +3,17 @@
 
 use super::*;
 use crate::support::mesh::options;
-use stickslip::interface::{Normals, Weights};
+use stickslip::interface::{Decision, Friction, Normals, Stiffness, Weights};
 
 /// Step of the differences, and what the tangent may be off by of the largest entry of a block: as in `tangent.rs`.
 const STEP: f64 = 1e-6;
 const DIFFERENCES: f64 = 1e-7;
 /// Rounding of a residual, relative to its largest entry.
 const NOISE: f64 = 1e-15;
+
+/// E* where points decide [F/L^2]; and a step in which none of them leaves its state.
+const MODULUS: f64 = 30.0;
+const POINT_STEP: f64 = 2e-7;
 
 /// A way to move everything by h.
 enum Way {
@@ -48,7 +52,7 @@ impl<const N: usize> Rough<N> {
 }
 
 /// The worst block of rows (forces, multipliers' rows, forces on the frame) and columns (nodes, multipliers, motions of the frame).
-fn worst<const N: usize>(rough: &mut Rough<N>) -> f64 {
+fn worst<const N: usize>(rough: &mut Rough<N>, step: f64) -> f64 {
     let (at, after) = (3 * rough.x1.len(), (3 + N) * rough.x1.len());
     let n = after + 3 * rough.x2.len();
     let mut k = vec![0.0; n * n];
@@ -60,16 +64,16 @@ fn worst<const N: usize>(rough: &mut Rough<N>) -> f64 {
         (at..after).map(Way::Unknown).collect(),
         axes.map(Way::Shift).into_iter().chain(axes.map(Way::Turn)).collect(),
     ];
-    let noise = NOISE / STEP * max_abs(rough.moved(&Way::Shift(Vec3::x()), 0.0));
+    let noise = NOISE / step * max_abs(rough.moved(&Way::Shift(Vec3::x()), 0.0));
     let mut worst = 0.0_f64;
     for ways in &groups {
         let (mut error, mut scale) = ([0.0_f64; 3], [0.0_f64; 3]);
         for way in ways {
-            let (plus, minus, d) = (rough.moved(way, STEP), rough.moved(way, -STEP), rough.direction(way, n));
+            let (plus, minus, d) = (rough.moved(way, step), rough.moved(way, -step), rough.direction(way, n));
             for i in 0..n {
                 let block = usize::from(i >= at) + usize::from(i >= after);
                 let entry: f64 = (0..n).map(|j| k[i * n + j] * d[j]).sum();
-                error[block] = error[block].max((entry - (plus[i] - minus[i]) / (2.0 * STEP)).abs());
+                error[block] = error[block].max((entry - (plus[i] - minus[i]) / (2.0 * step)).abs());
                 scale[block] = scale[block].max(entry.abs());
             }
         }
@@ -80,13 +84,13 @@ fn worst<const N: usize>(rough: &mut Rough<N>) -> f64 {
     worst
 }
 
-fn check<const N: usize>(options: Options)
+fn check<const N: usize>(options: Options, step: f64)
 where
     Contact<N>: Create,
 {
     for shape in SHAPES {
         for cells in [Cells::Quads, Cells::Triangles] {
-            let error = worst(&mut Rough::<N>::with(shape, cells, options, true));
+            let error = worst(&mut Rough::<N>::with(shape, cells, options, true), step);
             let Options { weights, normals, .. } = options;
             assert!(error <= DIFFERENCES, "{shape:?}, {N} multipliers, {weights:?}, {normals:?}: {error:.1e}");
         }
@@ -101,7 +105,18 @@ fn rows_and_columns_of_a_frame_equal_differences() {
         (Weights::Committed, Normals::Committed),
     ] {
         let options = Options { weights, normals, ..options() };
-        check::<3>(options);
-        check::<1>(Options { mu: 0.0, ..options });
+        check::<3>(options, STEP);
+        check::<1>(Options { mu: 0.0, ..options }, STEP);
+    }
+}
+
+/// Where points decide, with weights that are frozen.
+#[test]
+fn rows_and_columns_of_a_frame_equal_differences_where_points_decide() {
+    let (decision, stiffness) = (Decision::Points(MODULUS), Stiffness::Modulus(MODULUS));
+    for weights in [Weights::Committed, Weights::Reference] {
+        let options = Options { weights, decision, stiffness, basis: MultiplierBasis::Dual, ..options() };
+        check::<3>(options, POINT_STEP);
+        check::<1>(Options { friction: Friction::None, mu: 0.0, ..options }, POINT_STEP);
     }
 }

@@ -6,13 +6,16 @@ use crate::support::lines::{components, lines, plane_equations};
 use crate::support::mesh::{options, under};
 use crate::support::parents::{Kind, grid_of};
 use crate::support::{lines as of_lines, parents as of_parents};
-use stickslip::interface::{Friction, NO_EQUATION, Weights};
+use stickslip::interface::{Decision, Friction, NO_EQUATION, Stiffness, Weights};
 use stickslip::law::SlipMeasure;
 use stickslip::line::Measure;
 use stickslip::mortar::MultiplierSpace;
 
 /// Differences: truncation 1e-12 and rounding 1e-10 of a step of 1e-6; quadrature points are fixed on their parts.
 const DIFFERENCES: f64 = 1e-7;
+
+/// E* where points decide [F/L^2].
+const MODULUS: f64 = 30.0;
 
 const MEASURES: [Measure; 2] = [Measure::Thickness(0.7), Measure::Axisymmetric];
 const IN_PLANE: [AnalyticShape; 3] = [AnalyticShape::Line, AnalyticShape::Circle(1.5), AnalyticShape::Circle(-4.0)];
@@ -184,6 +187,22 @@ fn tangents_of_lines_are_those_of_differences() {
         }
     }
     assert!(seen.iter().all(|&n| n > 20), "states {seen:?}");
+}
+
+/// Lines over shapes where points decide, with weights that are frozen.
+#[test]
+fn tangents_of_lines_are_those_of_differences_where_points_decide() {
+    let (decision, stiffness) = (Decision::Points(MODULUS), Stiffness::Modulus(MODULUS));
+    for (shape, measure) in IN_PLANE.into_iter().flat_map(|s| MEASURES.map(|m| (s, m))) {
+        for weights in [Weights::Committed, Weights::Reference] {
+            let options = Options { weights, decision, stiffness, basis: MultiplierBasis::Dual, ..options() };
+            let error = lines_over::<3>(shape, 2, measure, options, 5).difference_error();
+            assert!(error <= DIFFERENCES, "{shape:?} {measure:?} {weights:?}: {error:e}");
+            let options = under(Friction::None, 0.0, options);
+            let error = lines_over::<1>(shape, 2, measure, options, 7).difference_error();
+            assert!(error <= DIFFERENCES, "{shape:?} {measure:?} {weights:?}: {error:e}");
+        }
+    }
 }
 
 /// Rough quadratic facets over a surface in space, moved since t_n in a turned frame.

@@ -222,7 +222,7 @@ impl Choice {
         call(Asked::Heat, !self.is("heat", "no"), &[Feature::Heat]);
         call(Asked::HeatTangent, motion, &[Feature::Heat]);
         call(Asked::Derivatives, !self.is("derivatives", "no"), &[Feature::Derivatives]);
-        call(Asked::SetCommitted, self.is("restart", "committed"), &[Feature::NodeHistory]);
+        call(Asked::SetCommitted, self.is("restart", "committed"), &[]);
         steps
     }
 }

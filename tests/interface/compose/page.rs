@@ -11,7 +11,7 @@ const LABEL: &str = "Not with (UNSUPPORTED):";
 const WIDTH: usize = 125;
 
 /// Where the header says what a feature does not go with: file of src/capi, what the comment stands before.
-const PLACES: [(&str, &str, Feature); 21] = [
+const PLACES: [(&str, &str, Feature); 20] = [
     ("method.rs", "pub const STICKSLIP_BASIS_STANDARD:", Feature::StandardBasis),
     ("method.rs", "pub const STICKSLIP_BASIS_DUAL:", Feature::DualBasis),
     ("space.rs", "pub const STICKSLIP_SPACE_SUB:", Feature::AllNodes),
@@ -29,7 +29,6 @@ const PLACES: [(&str, &str, Feature); 21] = [
     ("law.rs", "pub const STICKSLIP_LAW_ORTHOTROPIC:", Feature::Orthotropic),
     ("law.rs", "pub unsafe extern \"C\" fn stickslip_interface_set_law(", Feature::OwnLaw),
     ("offsets.rs", "pub unsafe extern \"C\" fn stickslip_interface_set_offsets(", Feature::Offsets),
-    ("interface.rs", "pub unsafe extern \"C\" fn stickslip_interface_set_committed(", Feature::NodeHistory),
     ("condensed.rs", "pub unsafe extern \"C\" fn stickslip_interface_condensed_multipliers(", Feature::Condensed),
     ("condensed.rs", "pub unsafe extern \"C\" fn stickslip_interface_condensed_csr(", Feature::InPlace),
     ("heat.rs", "pub unsafe extern \"C\" fn stickslip_interface_heat(", Feature::Heat),
