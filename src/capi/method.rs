@@ -286,7 +286,8 @@ impl stickslip_method {
     fn wishes(&self, small_displacements: bool) -> Result<Wishes> {
         let bases = [None, Some(MultiplierBasis::Standard), Some(MultiplierBasis::Dual)];
         let [current, committed, reference, persistent, conserving] =
-            [Weights::Current, Weights::Committed, Weights::Reference, Weights::Persistent, Weights::Conserving].map(Some);
+            [Weights::Current, Weights::Committed, Weights::Reference, Weights::Persistent, Weights::Conserving]
+                .map(Some);
         let all = [None, current, committed, reference, persistent, conserving];
         let mut weights = choose(self.weights, "method.weights", &all, 6)?;
         if small_displacements {

@@ -82,17 +82,20 @@ fn asks_for_slip<const N: usize>(setup: &Setup<N>, extent: Extent) -> bool {
 pub struct Cache<const N: usize> {
     kept: Kept,
     answers: Answers<N>,
-    /// With conserving weights: what is known of the step, whether its pairs half way are those of it, and where it is found.
-    conserving: (Conserving, bool),
+    /// With conserving weights: what is known of the step, and where it is found.
+    conserving: Conserving,
     gaps: GapRoom<N>,
+    /// Whether its pairs half way are of this step.
+    is_half_way: bool,
     /// What searches and integrations work with.
     pub work: Work,
 }
 
 impl<const N: usize> Default for Cache<N> {
     fn default() -> Self {
-        let (kept, answers, conserving) = (Kept::default(), Answers::default(), Default::default());
-        Cache { kept, answers, conserving, gaps: GapRoom::default(), work: Work::default() }
+        let (kept, answers, conserving) = (Kept::default(), Answers::default(), Conserving::default());
+        let (gaps, work) = (GapRoom::default(), Work::default());
+        Cache { kept, answers, conserving, gaps, is_half_way: false, work }
     }
 }
 
@@ -100,7 +103,7 @@ impl<const N: usize> Cache<N> {
     /// Drops what must not outlive what it was found with.
     pub fn forget(&mut self) {
         (self.kept.scope, self.kept.sums_of, self.answers.are_known) = (None, None, false);
-        self.conserving.1 = false;
+        self.is_half_way = false;
         self.answers.responses.points.is_settled = false;
     }
 
@@ -235,21 +238,21 @@ impl<const N: usize> Cache<N> {
 
     /// The same with conserving weights half way between t_n and (x1, x2).
     fn integrate_half_way(&mut self, setup: &Setup<N>, step: &Step, (x1, x2): (&[Vec3], &[Vec3])) -> Result<()> {
-        let (known, are_of_step) = &mut self.conserving;
+        let known = &mut self.conserving;
         if self.kept.scope.is_some_and(|scope| scope.apart) {
-            *are_of_step = false;
+            self.is_half_way = false;
             return known.clear(x1.len());
         }
         let (mut m1, mut m2) = (Vec::new(), Vec::new());
         conserving::mean_places(&step.history.x1, x1, &mut m1)?;
         conserving::mean_places(&step.history.x2, x2, &mut m2)?;
-        if *are_of_step && known.mean.is_at(&m1, &m2) {
+        if self.is_half_way && known.mean.is_at(&m1, &m2) {
             return Ok(());
         }
-        *are_of_step = false;
+        self.is_half_way = false;
         let filter = step.pairing.filter.as_ref().expect("current weights have one");
         acting(setup.surfaces(), &setup.options, filter, &mut self.work, (&m1, &m2), &mut known.mean)?;
-        *are_of_step = true;
+        self.is_half_way = true;
         Ok(())
     }
 
@@ -259,7 +262,7 @@ impl<const N: usize> Cache<N> {
         if self.is_apart() {
             return Ok(());
         }
-        let known = &mut self.conserving.0;
+        let known = &mut self.conserving;
         let mut at = [std::mem::take(&mut known.gaps[0]), std::mem::take(&mut known.gaps[1])];
         gaps(Given { setup, step }, (&self.kept.active, &self.kept.sums), &mut self.gaps, &mut at[0])?;
         follow(setup, step, &known.mean.x1)?;
@@ -273,7 +276,7 @@ impl<const N: usize> Cache<N> {
 
     /// What is known of the step where [`Cache::respond`] was called last, with conserving weights.
     pub fn conserving(&self) -> &Conserving {
-        &self.conserving.0
+        &self.conserving
     }
 
     /// Stage 1, assembled: every node's gaps and coverage at (x1, x2).
@@ -350,7 +353,7 @@ impl<const N: usize> Cache<N> {
                 self.arrive(setup, step, x, extent)?;
                 if self.answers.are_known && !self.answers.shared && self.answers.is_at(x, lambda) {
                     return if setup.options.conserves() && !self.is_apart() {
-                        follow(setup, step, &self.conserving.0.mean.x1)
+                        follow(setup, step, &self.conserving.mean.x1)
                     } else {
                         Ok(())
                     };
@@ -387,7 +390,7 @@ impl<const N: usize> Cache<N> {
             + a.responses.own.bytes()
             + a.responses.points.bytes();
         let answers = given + of_law;
-        let conserving = bytes::of_active(&self.conserving.0.mean) + self.conserving.0.bytes();
+        let conserving = bytes::of_active(&self.conserving.mean) + self.conserving.bytes();
         kept + answers + conserving + bytes::of_work(&self.work)
     }
 }

@@ -106,7 +106,11 @@ fn identities<const N: usize>(mut s: Scene<N>) {
     assert!(answers.len() == now.len());
     let largest = max_abs(terms.iter().copied());
     let error = (work.iter().sum::<f64>() - terms.iter().sum::<f64>()).abs();
-    assert!(largest > 1e-4 && error <= ROUNDING * largest.max(max_abs(work.iter().copied())), "{}: {error:e} of {largest:e}", s.name);
+    assert!(
+        largest > 1e-4 && error <= ROUNDING * largest.max(max_abs(work.iter().copied())),
+        "{}: {error:e} of {largest:e}",
+        s.name
+    );
     let resultant: Vec3 = forces.clone().sum();
     let size = forces.clone().map(Vec3::norm).sum::<f64>();
     assert!(resultant.norm() <= ROUNDING * size, "{}: {:e}", s.name, resultant.norm() / size);
@@ -156,7 +160,9 @@ fn the_tangent_of_lines_is_the_derivative() {
 }
 
 fn is_the_derivative<const N: usize>(mut s: Scene<N>) {
-    let point = |s: &mut Scene<N>| Point { contact: &mut s.contact, x1: &s.x1, x2: &s.x2, lambda: &s.lambda }.difference_error(0.0);
+    let point = |s: &mut Scene<N>| {
+        Point { contact: &mut s.contact, x1: &s.x1, x2: &s.x2, lambda: &s.lambda }.difference_error(0.0)
+    };
     let error = point(&mut s);
     println!("{}: {error:e}", s.name);
     assert!(error <= DIFFERENCES, "{}: {error:e}", s.name);

@@ -179,9 +179,7 @@ fn apart_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
         (Weights::Current, false) if setup.mortar.analytic.is_some() => "integrated all the same (asked for)",
         (Weights::Current, true) => "only their boxes and normals are compared (chosen)",
         (Weights::Current, false) => "searched all the same (asked for)",
-        (_, _) => {
-            "nothing special, for frozen weights need no search"
-        }
+        _ => "nothing special, for frozen weights need no search",
     };
     say!("Surfaces that are apart: {what}.")
 }

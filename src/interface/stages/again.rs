@@ -44,7 +44,9 @@ pub fn again(
                     let Some(segment) = found else { continue };
                     let weights = match one.parents.as_ref().zip(two.parents.as_ref()) {
                         None => PairWeights::integrate(&frame, &segment, options.rule),
-                        Some(parents) => of_parts(parents, (i, j), (&frame, &segment, options.rule), (&x1, &x2), active)?,
+                        Some(parents) => {
+                            of_parts(parents, (i, j), (&frame, &segment, options.rule), (&x1, &x2), active)?
+                        }
                     };
                     active.add(PairRecord { one: i, two: j, weights }, segment.area)?;
                     segments.store(segment)?;

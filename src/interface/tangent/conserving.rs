@@ -1,35 +1,21 @@
 //! The tangent with conserving weights (docs/formulation.md 20), node by node: what a multiplier's forces and its row depend on are all nodes
 //! that its gap depends on at the end of the step or half way.
 
-use super::curvature::Curvature;
+use super::conserving_numbers::ConservingNumbers;
 use super::emission::{Emitter, Place};
 use super::turning::{LoneRoom, lone_facets};
 use super::union::{Pairs, Walk};
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
-use crate::interface::data::conserving::{Conserving, NodeForce, NodeGap, Rigid};
+use crate::interface::data::conserving::{NodeForce, NodeGap, Rigid};
 use crate::interface::data::extent::Extent;
 use crate::interface::data::multiplier::direction;
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::conserving::parts;
 use crate::interface::stages::node::node;
 use crate::interface::stages::respond::Responses;
-use crate::interface::stages::sums::NodeSums;
 use crate::memory::{self, Store};
-use nalgebra::{SMatrix, SVector};
-
-/// How the weights of the slip change, of one node: weight of a node, by the place of another, D.
-pub type WeightSlopes = Vec<(usize, usize, Vec3)>;
-
-/// What the numbers are made of.
-pub struct ConservingNumbers<'a, const N: usize> {
-    pub known: &'a Conserving,
-    pub lambda: &'a [SVector<f64, N>],
-    pub sums: &'a [NodeSums],
-    pub curvature: Curvature,
-    /// Of every node; empty without friction.
-    pub slopes: Vec<WeightSlopes>,
-}
+use nalgebra::SMatrix;
 
 /// The nodes that each multiplier is coupled with, sorted, of these pairs.
 fn coupled<const N: usize>(given: Given<N>, pairs: Pairs, extent: Extent, moves: bool) -> Result<Vec<Vec<usize>>> {
@@ -144,7 +130,10 @@ impl<const N: usize> NodeBlocks<N> {
             if let Some(k) = self.at(on.node) {
                 self.multiplier[k] += match N {
                     1 => SMatrix::from_fn(|i, _| d[i]),
-                    _ => (d * mean.normal.transpose() + (Mat3::identity() - along) * on.weight) * direction::<N>(mean.normal),
+                    _ => {
+                        (d * mean.normal.transpose() + (Mat3::identity() - along) * on.weight)
+                            * direction::<N>(mean.normal)
+                    }
                 };
             }
             if N == 1 {

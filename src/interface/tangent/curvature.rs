@@ -2,6 +2,7 @@
 //! weights have are differences of their derivatives, facet by facet with normals held; normals have it in closed form, but for those of
 //! corners, which are differences, too.
 
+use super::conserving_numbers::Curvature;
 use super::gaps::{GapRoom, all};
 use super::union::{UnionPair, Walk};
 use crate::error::Result;
@@ -17,15 +18,6 @@ use crate::shape::MAX_PARENT_NODES;
 
 /// Step of the differences, over a node's size: its square, and the roundings of a derivative over it, are as small.
 const STEP: f64 = 1e-5;
-
-/// Second derivatives half way.
-#[derive(Debug, Default)]
-pub struct Curvature {
-    /// Blocks of sum_A lambda_A D^2 g_A, row and column, each with a node that depends on both.
-    pub blocks: Vec<Vec<([usize; 2], Mat3)>>,
-    /// D^2 g_A . u of the nodes that g_A depends on.
-    pub along: Vec<Vec<Vec3>>,
-}
 
 /// Where they are made.
 #[derive(Debug, Default)]

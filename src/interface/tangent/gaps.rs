@@ -88,13 +88,7 @@ impl<const N: usize> GapRoom<N> {
             let nodes = FacetResponse::new(setup.nonmortar.facets[f].nodes.map(|a| &self.tractions[a]));
             let (taker, constraints): (&mut dyn Blocks<N>, _) = (&mut Nobody, None);
             let mut emitter = Emitter { given, normals: &self.normals, taker, constraints };
-            linear_facet::fill(
-                task,
-                (&numbers, pairs),
-                &nodes,
-                (&mut self.table, &mut self.linear),
-                &mut emitter,
-            )?;
+            linear_facet::fill(task, (&numbers, pairs), &nodes, (&mut self.table, &mut self.linear), &mut emitter)?;
             &self.table
         };
         for k in 0..setup.nonmortar.multipliers(f) {

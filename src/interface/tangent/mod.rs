@@ -6,6 +6,7 @@ pub mod blocks;
 pub mod by_equations;
 pub mod carried_tangent;
 pub mod conserving;
+pub mod conserving_numbers;
 pub mod curvature;
 pub mod derivatives;
 pub mod dual_facet;

@@ -1,6 +1,6 @@
 //! What a tangent is asked for: of which pairs, and what its numbers are made of.
 
-use super::conserving::ConservingNumbers;
+use super::conserving_numbers::ConservingNumbers;
 use super::derivatives::PairDerivatives;
 use super::turning::Turns;
 use super::union::Pairs;
@@ -41,7 +41,16 @@ impl<'a, const N: usize> Numbers<'a, N> {
         nodes: &'a [NodeTangent<N>],
         motion: PairDerivatives<'a>,
     ) -> Numbers<'a, N> {
-        Numbers { x1: &active.x1, sums: &[], responses, nodes, active: Some(active), motion, turns: None, conserving: None }
+        Numbers {
+            x1: &active.x1,
+            sums: &[],
+            responses,
+            nodes,
+            active: Some(active),
+            motion,
+            turns: None,
+            conserving: None,
+        }
     }
     /// Which nodes are carried, with what the pairs must know of their carriers.
     pub fn carried(&self) -> (&[bool], &[NodeTangent<N>]) {
