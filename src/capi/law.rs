@@ -23,7 +23,8 @@ pub const STICKSLIP_LAW_COHESION: i32 = 1;
 pub const STICKSLIP_LAW_WEAKENING: i32 = 2;
 /// Orthotropic friction: mu along a direction, mu_across across it. Tractions stick within an ellipse, and slip goes at a right angle to
 /// its border.
-/// Not with (UNSUPPORTED): lines; derivatives by positions of t_n and by parameters.
+/// Not with (UNSUPPORTED): lines; conserving weights (STICKSLIP_WEIGHTS_CONSERVING); derivatives by positions of t_n and by
+/// parameters.
 pub const STICKSLIP_LAW_ORTHOTROPIC: i32 = 3;
 /// The most numbers a node that a law may remember.
 pub const STICKSLIP_LAW_MAX_STATES: i32 = 1024;
@@ -215,8 +216,8 @@ fn read_law(law: *const stickslip_law) -> Result<Option<Own>> {
 /// of which kind they are: set it again after a restart, before the import. A law of the same kind goes on with the states that
 /// there are, and its numbers may change from step to step; another one begins with states 0, and no commit before it can be undone.
 ///
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); derivatives by positions of t_n and by
-/// parameters.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); conserving weights
+/// (STICKSLIP_WEIGHTS_CONSERVING); derivatives by positions of t_n and by parameters.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a number; an interface with another law), UNSUPPORTED (see
 /// above and the kinds).
