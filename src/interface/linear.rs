@@ -190,7 +190,9 @@ impl<'a, const N: usize> Here<'a, N> {
             }
         }
         let curvature = Curvature::of(given, known, &along)?;
-        if given.setup.effects.law.slips {
+        // Without friction multipliers along the surface are 0 in a solution, and act until then.
+        let along = |a: usize| parts(&lambda[a], known.gaps[1][a].normal).1 != Vec3::zeros();
+        if N > 1 && (given.setup.effects.law.slips || (0..lambda.len()).any(along)) {
             slopes = memory::defaults(lambda.len())?;
             each_facet((given, normals), (&known.mean, &answers.responses), &mut |facet| {
                 let n = facet.nodes.len();

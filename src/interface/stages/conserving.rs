@@ -21,6 +21,9 @@ use nalgebra::SVector;
 /// Motions below this times a node's size leave q out: it would be a quotient of roundings, and q z is of the second order in them.
 const STILL: f64 = 1e-6;
 
+/// Points of a frame that shift by the same do so but for roundings of their places.
+const TURNED: f64 = 1e-14;
+
 /// The places half way between those of t_n and these.
 pub fn mean_places(before: &[Vec3], now: &[Vec3], mean: &mut Vec<Vec3>) -> Result<()> {
     mean.clear();
@@ -33,17 +36,30 @@ pub fn gap_before<const N: usize>(given: Given<N>, a: usize) -> Result<f64> {
     Ok(given.normal_of_step(a)?.dot(&gap))
 }
 
+/// By what an analytic mortar side has shifted in the step: nodes move against it.
+fn frame_shift<const N: usize>(given: Given<N>, x2: &[Vec3]) -> Result<Vec3> {
+    let (mortar, before) = (&given.setup.mortar, &given.history().x2);
+    if mortar.analytic.is_none() {
+        return Ok(Vec3::zeros());
+    }
+    let nodes = mortar.facets[0].as_slice();
+    let shift = x2[nodes[0]] - before[nodes[0]];
+    let size = nodes.iter().map(|&k| x2[k].norm() + before[k].norm()).fold(0.0, f64::max);
+    if nodes.iter().any(|&k| (x2[k] - before[k] - shift).norm() > TURNED * size) {
+        let text = "the analytic mortar side turns within a step: what it works with conserving weights (STICKSLIP_WEIGHTS_CONSERVING) is not built; mesh its surface, or take other weights";
+        return Err(Error::new(Kind::Unsupported, text));
+    }
+    Ok(shift)
+}
+
 /// Puts in place what the nodes do, of their gaps at the end and half way.
 pub fn settle<const N: usize>(given: Given<N>, (x1, x2): (&[Vec3], &[Vec3]), known: &mut Conserving) -> Result<()> {
     let (history, rigid) = (given.history(), Rigid::of(given.setup.surfaces()));
-    if given.setup.mortar.analytic.is_some() && history.x2 != x2 {
-        let text = "the analytic mortar side moves within a step: its work with conserving weights (STICKSLIP_WEIGHTS_CONSERVING) is not built; mesh its surface, or take other weights";
-        return Err(Error::new(Kind::Unsupported, text));
-    }
+    let shift = frame_shift(given, x2)?;
     let n1 = x1.len();
     let moved = |node: usize| match node.checked_sub(n1) {
-        None => (x1[node] - history.x1[node], (x1[node] + history.x1[node]) * 0.5),
-        Some(c) => (x2[c] - history.x2[c], (x2[c] + history.x2[c]) * 0.5),
+        None => (x1[node] - history.x1[node] - shift, (x1[node] + history.x1[node]) * 0.5),
+        Some(c) => (x2[c] - history.x2[c] - shift, (x2[c] + history.x2[c]) * 0.5),
     };
     known.forces.truncate(n1);
     while known.forces.len() < n1 {
