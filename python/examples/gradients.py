@@ -54,12 +54,16 @@ class Run:
         """The motion of the fixed unknowns."""
         return (0.04 * np.sin(1.6 * np.pi * time) * self.along + press * min(1, 4 * time) * self.down)[self.fixed]
 
-    def solve(self, mu=0.3, modulus=1.0, press=0.03, offset=0.0):
-        """All unknowns at first and at the end of each step."""
-        k = modulus * self.parts[0] + self.parts[1]
+    def begin(self, mu, offset):
+        """The first configuration, with these parameters of the interface."""
         self.contact.set_committed(np.zeros(self.contact.size))
         self.face.set_friction(np.full(self.face.n1, mu))
         self.face.set_offsets(offset * self.shape, None)
+
+    def solve(self, mu=0.3, modulus=1.0, press=0.03, offset=0.0):
+        """All unknowns at first and at the end of each step."""
+        k = modulus * self.parts[0] + self.parts[1]
+        self.begin(mu, offset)
         ends = [np.zeros(self.contact.size)]
         times = np.arange(1, self.steps + 1) / self.steps
         for step in stickslip.steps(self.contact, lambda u, _: k @ u, lambda u, _: k, times, fixed=self.fixed,
@@ -82,7 +86,9 @@ class Run:
 
     def pull(self, parameters, ends, weights):
         """The derivatives of sum of weights x forces by all parameters, in one run backwards."""
-        modulus, n_host = float(parameters[1]), self.X.size
+        mu, modulus, _, offset = map(float, parameters)
+        self.begin(mu, offset)  # other runs may have been since
+        n_host = self.X.size
         k = modulus * self.parts[0] + self.parts[1]
         slopes = np.zeros((len(ends), self.contact.size))
         slopes[1:, :n_host] = np.outer(weights, k @ self.along)

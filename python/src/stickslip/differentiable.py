@@ -23,7 +23,8 @@ class Run(Protocol):
         """The outputs, and what :meth:`pull` needs of the run: its ends (:func:`stickslip.gradients.backward`)."""
 
     def pull(self, parameters: Sequence[Reals], ends: Reals, weights: Reals) -> Sequence[Any]:
-        """sum of weights x d outputs / d parameter, for each parameter, in its shape."""
+        """sum of weights x d outputs / d parameter, for each parameter, in its shape. Other runs may have been since: what the interfaces have of
+        the parameters has to be set again."""
 
 
 def forward(run: Run, parameters: Sequence[Any]) -> tuple[Reals, Reals]:
