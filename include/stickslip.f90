@@ -226,6 +226,7 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_LAW_COHESION = 1
   integer(c_int32_t), parameter :: STICKSLIP_LAW_WEAKENING = 2
   integer(c_int32_t), parameter :: STICKSLIP_LAW_ORTHOTROPIC = 3
+  integer(c_int32_t), parameter :: STICKSLIP_LAW_RATE = 4
   integer(c_int32_t), parameter :: STICKSLIP_LAW_MAX_STATES = 1024
 
   ! Columns of the heat's tangent: of temperatures alone, or of displacements and multipliers, too. Derivatives per side of
@@ -244,7 +245,7 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_method_size = 104
   integer(c_int64_t), parameter :: stickslip_options_size = 88
   integer(c_int64_t), parameter :: stickslip_surface_size = 72
-  integer(c_int64_t), parameter :: stickslip_states_size = 88
+  integer(c_int64_t), parameter :: stickslip_states_size = 120
   integer(c_int64_t), parameter :: stickslip_counters_size = 200
   integer(c_int64_t), parameter :: stickslip_report_size = 104
   integer(c_int64_t), parameter :: stickslip_diagnosis_size = 224
@@ -255,9 +256,10 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_equilibrium_size = 216
   integer(c_int64_t), parameter :: stickslip_rigid_body_size = 56
   integer(c_int64_t), parameter :: stickslip_rigid_motion_size = 136
-  integer(c_int64_t), parameter :: stickslip_law_size = 72
+  integer(c_int64_t), parameter :: stickslip_law_size = 88
   integer(c_int64_t), parameter :: stickslip_law_point_size = 104
   integer(c_int64_t), parameter :: stickslip_law_answer_size = 48
+  integer(c_int64_t), parameter :: stickslip_layer_size = 72
   integer(c_int64_t), parameter :: stickslip_heat_size = 80
   integer(c_int64_t), parameter :: stickslip_heat_nodes_size = 48
   integer(c_int64_t), parameter :: stickslip_gradient_size = 72
@@ -356,6 +358,10 @@ module stickslip
     type(c_ptr) :: dissipation = c_null_ptr        ! (n1): work of friction in this step [F L]
     type(c_ptr) :: augmentation = c_null_ptr       ! (n1): r_A [F/L^5]
     type(c_ptr) :: share = c_null_ptr              ! (n1): closed part of what is covered [-]
+    type(c_ptr) :: worn = c_null_ptr               ! (n1): depth that is worn off [L]
+    type(c_ptr) :: worn_volume = c_null_ptr        ! (n1): volume likewise [L^3]
+    type(c_ptr) :: damage = c_null_ptr             ! (n1): of the bond, 0 to 1 [-]
+    type(c_ptr) :: bond_loss = c_null_ptr          ! (n1): work that the bond has lost an area [F/L]
   end type
 
   ! What an interface has done since its creation.
@@ -566,6 +572,8 @@ module stickslip
     real(c_double) :: critical_slip = 0            ! WEAKENING: > 0 [L]
     real(c_double) :: mu_across = 0                ! ORTHOTROPIC: the coefficient across the direction, > 0
     real(c_double) :: direction(3) = 0             ! ORTHOTROPIC: along which mu counts, any length but 0
+    real(c_double) :: critical_rate = 0            ! RATE: the velocity over which 1/e is left, > 0 [L/T]
+    real(c_double) :: time = 0                     ! RATE: how long the step takes, > 0 [T]
   end type
 
   ! What a law of the host's is asked about a node.
@@ -585,6 +593,19 @@ module stickslip
     real(c_double) :: threshold = 0                ! k >= 0 [F/L^2]
     real(c_double) :: dthreshold_dnormal = 0       ! <= 0
     real(c_double) :: dthreshold_dslip(3) = 0      ! [F/L^3]
+  end type
+
+  ! What lies between the surfaces, or becomes of them: what is 0 is not there.
+  type, bind(C) :: stickslip_layer
+    integer(c_int64_t) :: struct_size = stickslip_layer_size
+    integer(c_int64_t) :: n_overclosure = 0        ! points of the table: 0, or at least 2
+    type(c_ptr) :: overclosure = c_null_ptr        ! real(c_double) (n_overclosure): growing [L]
+    type(c_ptr) :: pressure = c_null_ptr           ! real(c_double) (n_overclosure): growing from 0 [F/L^2]
+    real(c_double) :: wear = 0                     ! depth a unit of pressure and of slip [L^2/F]
+    real(c_double) :: bond_stiffness = 0           ! traction an opening, before damage [F/L^3]
+    real(c_double) :: bond_strength = 0            ! the largest in tension [F/L^2]
+    real(c_double) :: bond_toughness = 0           ! work that parts an area [F/L]
+    real(c_double) :: bond_shear = 0               ! the largest in shear over that in tension
   end type
 
   ! How heat crosses an interface: per area h (T1 - T2) with
@@ -1477,6 +1498,13 @@ module stickslip
       type(stickslip_interface), value :: interface
       integer(c_int64_t), value :: n
       real(c_double), intent(in) :: states(*)
+    end function
+
+    ! Takes what lies between the surfaces; c_null_ptr, or c_loc of a stickslip_layer with the TARGET attribute.
+    integer(c_int32_t) function stickslip_interface_set_layer(interface, layer) bind(C)
+      import :: c_int32_t, c_ptr, stickslip_interface
+      type(stickslip_interface), value :: interface
+      type(c_ptr), value :: layer
     end function
 
     ! Heat that leaves the nodes of both sides: heat1(n1), heat2(n2) [F L/T], to add to the host's internal heat flow.

@@ -73,7 +73,7 @@
  * What it may add: interface_set_friction, interface_set_augmentation, interface_set_normals,
  * interface_set_constraints, interface_set_offsets, interface_set_previous, interface_set_committed after interface_create; interface_adjust,
  * interface_shape_offsets for what goes into them; interface_set_law, interface_set_threshold for other laws of friction,
- * interface_law_states, interface_set_law_states for what these remember; interface_heat and interface_heat_tangent_coo for
+ * interface_law_states, interface_set_law_states for what these remember; interface_set_layer for what lies between the surfaces; interface_heat and interface_heat_tangent_coo for
  * heat across the interface; interface_previous_tangent_coo, interface_adjoint, interface_sensitivity for gradients of a run;
  * interface_history_size,
  * interface_history_export, interface_history_import for restarts; interface_sums on several processes;
@@ -259,7 +259,7 @@
 
 /// P g[n_n,x]: the paper's literal (12); drifts on curved interfaces.
 /// Not with (UNSUPPORTED): persistent weights (STICKSLIP_WEIGHTS_PERSISTENT); points that decide (STICKSLIP_DECISION_POINTS)
-/// and friction; conserving weights (STICKSLIP_WEIGHTS_CONSERVING).
+/// and friction; conserving weights (STICKSLIP_WEIGHTS_CONSERVING); wear or a bond (stickslip_layer).
 #define STICKSLIP_SLIP_PAPER 2
 
 /// Of now; with STICKSLIP_DECISION_POINTS and friction, or an analytic surface, those of the last commit. Default.
@@ -277,15 +277,18 @@
 /// Weights frozen at the last commit, and what overlaps there counts as closed: a step need not part it. The work of the contact forces over a
 /// step is then never positive, whatever slides and turns: for dynamics.
 /// Not with (UNSUPPORTED): the paper's slip measure (STICKSLIP_SLIP_PAPER); points that decide (STICKSLIP_DECISION_POINTS);
-/// the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (method.element_points); nodes that others
-/// carry (weak_coverage > 0, the default of dual multipliers); an analytic mortar side whose frame has equations; normals of
-/// the host; offsets; a law of one's own; orthotropic friction; nodes that handles share (owned has STICKSLIP_NODE_SHARED);
-/// condensation; sums of several handles; heat; derivatives by positions of t_n and by parameters.
+/// a layer between the surfaces (stickslip_interface_set_layer); offsets; derivatives by positions of t_n and by parameters.
 #define STICKSLIP_WEIGHTS_PERSISTENT 4
 
 /// Weights and normals of now, and gaps that are functions of the places alone. A step closes them up to what the last one has left, and its
 /// forces work exactly what they change by: nothing gains and nothing sinks, whatever slides and turns. For dynamics whose displacements follow
-/// the mean of the velocities. Multipliers and `normal` are along the normals half way between t_n and now (docs/formulation.md 20).
+/// the mean of the velocities. Multipliers and `normal` are along the normals half way between t_n and now (docs/formulation.md 21).
+/// Not with (UNSUPPORTED): the paper's slip measure (STICKSLIP_SLIP_PAPER); points that decide (STICKSLIP_DECISION_POINTS);
+/// the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (method.element_points); nodes that others
+/// carry (weak_coverage > 0, the default of dual multipliers); an analytic mortar side whose frame has equations; normals of
+/// the host; offsets; a layer between the surfaces (stickslip_interface_set_layer); a law of one's own; orthotropic
+/// friction; nodes that handles share (owned has STICKSLIP_NODE_SHARED); condensation; sums of several handles; heat;
+/// derivatives by positions of t_n and by parameters.
 #define STICKSLIP_WEIGHTS_CONSERVING 5
 
 /// Of now, unless weights are frozen or the host gives normals: then of the last commit. Default.
@@ -396,8 +399,9 @@
 /// weights (STICKSLIP_WEIGHTS_PERSISTENT); the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps
 /// (method.element_points); nodes that others carry (weak_coverage > 0, the default of dual multipliers); conserving weights
 /// (STICKSLIP_WEIGHTS_CONSERVING); an analytic mortar side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid
-/// nodes; a law of one's own; parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE); nodes that handles share (owned
-/// has STICKSLIP_NODE_SHARED); condensation; heat; derivatives by positions of t_n and by parameters.
+/// nodes; a law of one's own; a layer between the surfaces (stickslip_interface_set_layer); parts of an interface (owned has
+/// STICKSLIP_NODE_ELSEWHERE); nodes that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes
+/// (stickslip_interface_set_committed) and friction; condensation; heat; derivatives by positions of t_n and by parameters.
 #define STICKSLIP_DECISION_POINTS 1
 
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
@@ -420,7 +424,8 @@
 
 /// Mesh tying: a node that is covered in the first configuration keeps its place; weights of the reference. A gap at the
 /// start stays, and turns with the non-mortar facets; linear where there is none.
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS).
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); a layer between the surfaces
+/// (stickslip_interface_set_layer).
 #define STICKSLIP_FRICTION_TIED 2
 
 /// Opens and closes, never slips.
@@ -646,6 +651,10 @@
 /// parameters.
 #define STICKSLIP_LAW_ORTHOTROPIC 3
 
+/// Friction that weakens with the velocity v of slip: mu_after + (mu - mu_after) exp(-v / critical_rate), v the slip of the step over `time`:
+/// set the law again where a step takes another time. Where it falls faster than inertia and the host's own damping hold, a body sticks and slips.
+#define STICKSLIP_LAW_RATE 4
+
 /// The most numbers a node that a law may remember.
 #define STICKSLIP_LAW_MAX_STATES 1024
 
@@ -860,6 +869,14 @@ typedef struct stickslip_states {
   /// n1: how much of what is covered of the node is closed [-]: 1 or 0 where nodes decide, between them where points do
   /// (STICKSLIP_DECISION_POINTS; the state is then a gap where it is 0).
   double *share;
+  /// n1: depth that is worn off, this step's included [L]; 0 without wear (`stickslip_interface_set_layer`).
+  double *worn;
+  /// n1: volume that is worn off likewise [L^3]: a sum over the steps of depth times the area of then.
+  double *worn_volume;
+  /// n1: damage of the bond, 0 to 1, this step's included [-]; 0 without a bond.
+  double *damage;
+  /// n1: work that the bond has lost a unit of area, likewise [F/L].
+  double *bond_loss;
 } stickslip_states;
 
 /// What an interface has done since its creation.
@@ -1281,7 +1298,7 @@ typedef struct stickslip_law {
   int32_t reserved;
   /// With STICKSLIP_LAW_COHESION c >= 0 [F/L^2].
   double cohesion;
-  /// With STICKSLIP_LAW_WEAKENING the coefficient from the critical slip on, >= 0 [-].
+  /// With STICKSLIP_LAW_WEAKENING the coefficient from the critical slip on, with STICKSLIP_LAW_RATE that of fast slip, >= 0 [-].
   double mu_after;
   /// With STICKSLIP_LAW_WEAKENING the critical slip, > 0 [L].
   double critical_slip;
@@ -1290,6 +1307,10 @@ typedef struct stickslip_law {
   /// With STICKSLIP_LAW_ORTHOTROPIC the direction along which mu counts, of any length but 0 [-]: it is projected on the surface at
   /// each node, where a part of it must be left. It is fixed in space: set the law again where the body turns.
   double direction[3];
+  /// With STICKSLIP_LAW_RATE the velocity over which a share of 1/e is left, > 0 [L/T].
+  double critical_rate;
+  /// With STICKSLIP_LAW_RATE how long the step takes, > 0 [T].
+  double time;
 } stickslip_law;
 
 /// What a law of the host's is asked about a node.
@@ -1337,6 +1358,29 @@ typedef int32_t (*stickslip_threshold)(void *user,
                                        const double *states,
                                        struct stickslip_law_answer *answer,
                                        double *states_after);
+
+/// What lies between the surfaces, or becomes of them, beside the law of friction: any of three things. What is 0 or NULL is not there.
+typedef struct stickslip_layer {
+  /// sizeof(stickslip_layer).
+  uint64_t struct_size;
+  /// Points of a table of pressure against overclosure: 0 (surfaces are hard), or at least 2.
+  int64_t n_overclosure;
+  /// n_overclosure: by how much the meshed surfaces overlap, growing [L]; the first may be below 0, where the pressure begins before
+  /// they touch.
+  const double *overclosure;
+  /// n_overclosure: the pressure there, growing from 0 [F/L^2]. Straight lines in between, and beyond the last point.
+  const double *pressure;
+  /// Depth that is worn off a unit of pressure and of slip, of both surfaces together, as Archard has it: k = K / hardness [L^2/F].
+  double wear;
+  /// Of a bond: traction an opening, before damage [F/L^3]; 0: there is none, and what follows is 0, too.
+  double bond_stiffness;
+  /// The largest traction in tension [F/L^2].
+  double bond_strength;
+  /// Work that parts a unit of area, in tension, in shear and in any mixture of them [F/L].
+  double bond_toughness;
+  /// The largest shear traction over the one in tension [-].
+  double bond_shear;
+} stickslip_layer;
 
 /// How heat crosses an interface, and where that of friction goes. Zeros: nothing passes, friction makes none. T stands for a time,
 /// K for a temperature, so that F L/T is a power.
@@ -1693,11 +1737,12 @@ int32_t stickslip_interface_set_previous(struct stickslip_interface *interface,
 /// and the first gaps of tied nodes are those of the creation. No commit can then be undone.
 ///
 /// slip (3 n1) [L]: what `stickslip_interface_states` had after the commit; NULL: none. Interfaces that remember no slip
-/// (tied, rough, without friction) ignore it. What a law remembers becomes 0; `stickslip_interface_set_law_states` afterwards. So does
-/// what points that decide remember: a step begins with the tractions of the multipliers' field, and a kink within a facet is lost.
+/// (tied, rough, without friction) ignore it. What a law remembers becomes 0; `stickslip_interface_set_law_states` afterwards.
+///
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS) and friction.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (commits < 0,
-/// mortar facets on each other, an analytic surface's frame).
+/// mortar facets on each other, an analytic surface's frame), UNSUPPORTED.
 /// Cost: one search and one integration; allocates.
 int32_t stickslip_interface_set_committed(struct stickslip_interface *interface,
                                           const double *x1,
@@ -2883,6 +2928,25 @@ int32_t stickslip_interface_law_states(struct stickslip_interface *interface,
 int32_t stickslip_interface_set_law_states(struct stickslip_interface *interface,
                                            int64_t n,
                                            const double *states);
+
+/// Takes what lies between the surfaces, from the next evaluation on: a layer that yields under pressure, wear, a bond that bears
+/// tension and shear until it is parted, or any of these together. The law of friction stays what it is, and stands beside a bond.
+///
+/// layer: see `stickslip_layer`; NULL, or one with nothing in it: nothing. It is copied. Wear is implicit: the depth of a step follows
+/// from the pressure and the slip at its end. Worn depth and damage of the nodes are states, as those of a law are
+/// (`stickslip_interface_law_states`, where they follow them, node by node), and belong to the history; the layer does not: set it again after a restart, before the
+/// import. Its numbers may change from step to step; where wear or a bond comes or goes its states begin at 0, and no commit before it can be
+/// undone. Offsets, which are the host's, are there beside it.
+///
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); persistent weights
+/// (STICKSLIP_WEIGHTS_PERSISTENT); tied surfaces (STICKSLIP_FRICTION_TIED); conserving weights
+/// (STICKSLIP_WEIGHTS_CONSERVING); derivatives by positions of t_n and by parameters.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INVALID_VALUE (a number; wear or a bond without friction, which have no
+/// slip), UNSUPPORTED (see above), and those of a search, where pairs must be sought farther or deeper.
+/// Cost: the states, and of evaluations a part for each node; allocates them.
+int32_t stickslip_interface_set_layer(struct stickslip_interface *interface,
+                                      const struct stickslip_layer *layer);
 
 /// Heat that leaves the nodes of both sides, what to ADD to the host's internal heat flow (conduction and storage, less sources).
 /// With q_A of each non-mortar node: sum_A n_AB q_A at the non-mortar, - sum_A n_AC q_A at the mortar nodes, less friction's heat.

@@ -62,7 +62,7 @@ fn law(bytes: &mut Bytes) -> stickslip_law {
     // SAFETY: numbers alone.
     let mut law: stickslip_law = unsafe { std::mem::zeroed() };
     law.struct_size = size_of::<stickslip_law>() as u64;
-    law.kind = bytes.choice(4);
+    law.kind = bytes.choice(5);
     let own = |kind: i32, usual: f64| if law.kind == kind { usual } else { 0.0 };
     let usual = [
         own(STICKSLIP_LAW_COHESION, 0.1),
@@ -75,8 +75,27 @@ fn law(bytes: &mut Bytes) -> stickslip_law {
     law.mu_after = bytes.number(usual[1]);
     law.critical_slip = bytes.number(usual[2]);
     law.mu_across = bytes.number(usual[3]);
+    law.critical_rate = bytes.number(if law.kind == STICKSLIP_LAW_RATE { 0.1 } else { 0.0 });
+    law.time = bytes.number(if law.kind == STICKSLIP_LAW_RATE { 0.1 } else { 0.0 });
     law.direction = [bytes.number(usual[4]), bytes.number(0.0), bytes.number(0.0)];
     law
+}
+
+/// A table of three points, wear and a bond; `table`: where its numbers are.
+fn layer(bytes: &mut Bytes, table: &mut [f64; 6]) -> stickslip_layer {
+    *table = [0.0, 1e-3, 2e-3, 0.0, 1.0, 4.0];
+    shake(bytes, table);
+    stickslip_layer {
+        struct_size: size_of::<stickslip_layer>() as u64,
+        n_overclosure: bytes.choice(4) as i64,
+        overclosure: table.as_ptr(),
+        pressure: table[3..].as_ptr(),
+        wear: bytes.number(1e-3),
+        bond_stiffness: bytes.number(100.0),
+        bond_strength: bytes.number(1.0),
+        bond_toughness: bytes.number(0.1),
+        bond_shear: bytes.number(0.7),
+    }
 }
 
 fn heat(bytes: &mut Bytes) -> stickslip_heat {
@@ -194,7 +213,16 @@ pub fn run(data: &[u8]) {
             break;
         }
         let h = scene.handle;
-        match bytes.below(8) {
+        match bytes.below(9) {
+            8 => {
+                let mut table = [0.0; 6];
+                let layer = layer(&mut bytes, &mut table);
+                let before = bits(&states(&scene));
+                // SAFETY: the struct is whole, and no more points are asked for than there are.
+                if !succeeded(unsafe { stickslip_interface_set_layer(h, &layer) }) {
+                    assert!(before == bits(&states(&scene)), "a refused layer has changed the states");
+                }
+            }
             0 => {
                 let law = law(&mut bytes);
                 let before = bits(&states(&scene));

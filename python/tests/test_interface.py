@@ -212,6 +212,23 @@ def test_a_law_that_fails_refuses_the_call_and_is_its_cause(blocks):
         blocks.interface.set_law("orthotropic", across=0.1)
 
 
+def test_a_layer_yields_wears_and_holds(blocks):
+    point, face = blocks.pressed(), blocks.interface
+    hard = face.residual(*point)[2]
+    face.set_layer(overclosure=[[0, 0], [1e-3, 1e3]])
+    assert np.abs(face.residual(*point)[2] - hard).max() > 0 and face.law_states().shape == (face.n1, 0)
+    face.set_layer(wear=1e-3, bond_stiffness=1e3, bond_strength=1.0, bond_toughness=0.1, bond_shear=1.0)
+    states = face.states(*point)
+    assert (states.worn >= 0).all() and ((states.damage >= 0) & (states.damage <= 1)).all()
+    assert face.law_states().shape == (face.n1, 6)
+    face.set_layer()
+    np.testing.assert_array_equal(face.residual(*point)[2], hard)
+    with pytest.raises(stickslip.errors.InvalidValue, match=r"layer.pressure\[1\]"):
+        face.set_layer(overclosure=[[0, 0], [1, 0]])
+    with pytest.raises(TypeError, match="bond_shear"):
+        face.set_layer(glue=1.0)
+
+
 def test_heat_passes_and_is_what_its_tangent_says():
     with scene.Solid() as solid:
         face, n = solid.interface, len(solid.x1) + len(solid.x2)

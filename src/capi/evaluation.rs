@@ -82,6 +82,14 @@ pub struct stickslip_states {
     /// n1: how much of what is covered of the node is closed [-]: 1 or 0 where nodes decide, between them where points do
     /// (STICKSLIP_DECISION_POINTS; the state is then a gap where it is 0).
     pub share: *mut f64,
+    /// n1: depth that is worn off, this step's included [L]; 0 without wear (`stickslip_interface_set_layer`).
+    pub worn: *mut f64,
+    /// n1: volume that is worn off likewise [L^3]: a sum over the steps of depth times the area of then.
+    pub worn_volume: *mut f64,
+    /// n1: damage of the bond, 0 to 1, this step's included [-]; 0 without a bond.
+    pub damage: *mut f64,
+    /// n1: work that the bond has lost a unit of area, likewise [F/L].
+    pub bond_loss: *mut f64,
 }
 
 // SAFETY: repr(C), struct_size first, integers and raw pointers only.
@@ -131,6 +139,10 @@ pub(super) fn check_states(out: &stickslip_states) -> Result<()> {
         (out.dissipation, "stickslip_states.dissipation"),
         (out.augmentation, "stickslip_states.augmentation"),
         (out.share, "stickslip_states.share"),
+        (out.worn, "stickslip_states.worn"),
+        (out.worn_volume, "stickslip_states.worn_volume"),
+        (out.damage, "stickslip_states.damage"),
+        (out.bond_loss, "stickslip_states.bond_loss"),
     ] {
         raw::check_optional(p, name)?;
     }
@@ -162,6 +174,7 @@ fn write_states<const N: usize>(c: &mut Contact<N>, point: &Point, out: &sticksl
     check("area", area())?;
     check("dissipation", dissipation())?;
     check("augmentation", augmentation())?;
+    check("worn, worn_volume", (0..responses.len()).map(|a| c.layer_state_now(a)).map(|of| of.worn + of.volume))?;
     raw::write_each(out.state, responses.iter().map(|r| r.state as i32));
     raw::write_each(out.normal, normals());
     raw::write_each(out.traction, traction());
@@ -172,6 +185,11 @@ fn write_states<const N: usize>(c: &mut Contact<N>, point: &Point, out: &sticksl
     raw::write_each(out.dissipation, dissipation());
     raw::write_each(out.augmentation, augmentation());
     raw::write_each(out.share, (0..responses.len()).map(|a| c.closed_share(a)));
+    let layer = || (0..responses.len()).map(|a| c.layer_state_now(a));
+    raw::write_each(out.worn, layer().map(|of| of.worn));
+    raw::write_each(out.worn_volume, layer().map(|of| of.volume));
+    raw::write_each(out.damage, layer().map(|of| of.damage));
+    raw::write_each(out.bond_loss, layer().map(|of| of.lost));
     Ok(())
 }
 

@@ -219,11 +219,12 @@ pub unsafe extern "C" fn stickslip_interface_set_previous(
 /// and the first gaps of tied nodes are those of the creation. No commit can then be undone.
 ///
 /// slip (3 n1) [L]: what `stickslip_interface_states` had after the commit; NULL: none. Interfaces that remember no slip
-/// (tied, rough, without friction) ignore it. What a law remembers becomes 0; `stickslip_interface_set_law_states` afterwards. So does
-/// what points that decide remember: a step begins with the tractions of the multipliers' field, and a kink within a facet is lost.
+/// (tied, rough, without friction) ignore it. What a law remembers becomes 0; `stickslip_interface_set_law_states` afterwards.
+///
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS) and friction.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (commits < 0,
-/// mortar facets on each other, an analytic surface's frame).
+/// mortar facets on each other, an analytic surface's frame), UNSUPPORTED.
 /// Cost: one search and one integration; allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_set_committed(

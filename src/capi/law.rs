@@ -26,6 +26,9 @@ pub const STICKSLIP_LAW_WEAKENING: i32 = 2;
 /// Not with (UNSUPPORTED): lines; conserving weights (STICKSLIP_WEIGHTS_CONSERVING); derivatives by positions of t_n and by
 /// parameters.
 pub const STICKSLIP_LAW_ORTHOTROPIC: i32 = 3;
+/// Friction that weakens with the velocity v of slip: mu_after + (mu - mu_after) exp(-v / critical_rate), v the slip of the step over `time`:
+/// set the law again where a step takes another time. Where it falls faster than inertia and the host's own damping hold, a body sticks and slips.
+pub const STICKSLIP_LAW_RATE: i32 = 4;
 /// The most numbers a node that a law may remember.
 pub const STICKSLIP_LAW_MAX_STATES: i32 = 1024;
 
@@ -42,7 +45,7 @@ pub struct stickslip_law {
     pub reserved: i32,
     /// With STICKSLIP_LAW_COHESION c >= 0 [F/L^2].
     pub cohesion: f64,
-    /// With STICKSLIP_LAW_WEAKENING the coefficient from the critical slip on, >= 0 [-].
+    /// With STICKSLIP_LAW_WEAKENING the coefficient from the critical slip on, with STICKSLIP_LAW_RATE that of fast slip, >= 0 [-].
     pub mu_after: f64,
     /// With STICKSLIP_LAW_WEAKENING the critical slip, > 0 [L].
     pub critical_slip: f64,
@@ -51,6 +54,10 @@ pub struct stickslip_law {
     /// With STICKSLIP_LAW_ORTHOTROPIC the direction along which mu counts, of any length but 0 [-]: it is projected on the surface at
     /// each node, where a part of it must be left. It is fixed in space: set the law again where the body turns.
     pub direction: [f64; 3],
+    /// With STICKSLIP_LAW_RATE the velocity over which a share of 1/e is left, > 0 [L/T].
+    pub critical_rate: f64,
+    /// With STICKSLIP_LAW_RATE how long the step takes, > 0 [T].
+    pub time: f64,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -170,13 +177,25 @@ fn read_law(law: *const stickslip_law) -> Result<Option<Own>> {
     if law.is_null() {
         return Ok(None);
     }
-    let stickslip_law { struct_size: _, kind, reserved, cohesion, mu_after, critical_slip, mu_across, direction } =
-        sized::read(law)?;
+    let stickslip_law {
+        struct_size: _,
+        kind,
+        reserved,
+        cohesion,
+        mu_after,
+        critical_slip,
+        mu_across,
+        direction,
+        critical_rate,
+        time,
+    } = sized::read(law)?;
     let [x, y, z] = direction;
     let numbers = [
         ("reserved", f64::from(reserved), &[][..]),
         ("cohesion", cohesion, &[STICKSLIP_LAW_COHESION]),
-        ("mu_after", mu_after, &[STICKSLIP_LAW_WEAKENING]),
+        ("mu_after", mu_after, &[STICKSLIP_LAW_WEAKENING, STICKSLIP_LAW_RATE]),
+        ("critical_rate", critical_rate, &[STICKSLIP_LAW_RATE]),
+        ("time", time, &[STICKSLIP_LAW_RATE]),
         ("critical_slip", critical_slip, &[STICKSLIP_LAW_WEAKENING]),
         ("mu_across", mu_across, &[STICKSLIP_LAW_ORTHOTROPIC]),
         ("direction", x, &[STICKSLIP_LAW_ORTHOTROPIC]),
@@ -193,8 +212,9 @@ fn read_law(law: *const stickslip_law) -> Result<Option<Own>> {
         STICKSLIP_LAW_ORTHOTROPIC => {
             Some(Own::Orthotropic(Ellipse { direction: Vec3::from(direction), across: mu_across }))
         }
+        STICKSLIP_LAW_RATE => Some(Own::Rate { after: mu_after, rate: critical_rate, time }),
         _ => {
-            let text = text!("law.kind is {kind}; 0 to {STICKSLIP_LAW_ORTHOTROPIC} are allowed");
+            let text = text!("law.kind is {kind}; 0 to {STICKSLIP_LAW_RATE} are allowed");
             return Err(Error::new(Kind::InvalidValue, text));
         }
     };

@@ -25,7 +25,7 @@ pub const STICKSLIP_SLIP_OBJECTIVE: i32 = 0;
 pub const STICKSLIP_SLIP_INCREMENT: i32 = 1;
 /// P g[n_n,x]: the paper's literal (12); drifts on curved interfaces.
 /// Not with (UNSUPPORTED): persistent weights (STICKSLIP_WEIGHTS_PERSISTENT); points that decide (STICKSLIP_DECISION_POINTS)
-/// and friction; conserving weights (STICKSLIP_WEIGHTS_CONSERVING).
+/// and friction; conserving weights (STICKSLIP_WEIGHTS_CONSERVING); wear or a bond (stickslip_layer).
 pub const STICKSLIP_SLIP_PAPER: i32 = 2;
 /// Of now; with STICKSLIP_DECISION_POINTS and friction, or an analytic surface, those of the last commit. Default.
 pub const STICKSLIP_WEIGHTS_AUTO: i32 = 0;
@@ -38,14 +38,17 @@ pub const STICKSLIP_WEIGHTS_REFERENCE: i32 = 3;
 /// Weights frozen at the last commit, and what overlaps there counts as closed: a step need not part it. The work of the contact forces over a
 /// step is then never positive, whatever slides and turns: for dynamics.
 /// Not with (UNSUPPORTED): the paper's slip measure (STICKSLIP_SLIP_PAPER); points that decide (STICKSLIP_DECISION_POINTS);
-/// the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (method.element_points); nodes that others
-/// carry (weak_coverage > 0, the default of dual multipliers); an analytic mortar side whose frame has equations; normals of
-/// the host; offsets; a law of one's own; orthotropic friction; nodes that handles share (owned has STICKSLIP_NODE_SHARED);
-/// condensation; sums of several handles; heat; derivatives by positions of t_n and by parameters.
+/// a layer between the surfaces (stickslip_interface_set_layer); offsets; derivatives by positions of t_n and by parameters.
 pub const STICKSLIP_WEIGHTS_PERSISTENT: i32 = 4;
 /// Weights and normals of now, and gaps that are functions of the places alone. A step closes them up to what the last one has left, and its
 /// forces work exactly what they change by: nothing gains and nothing sinks, whatever slides and turns. For dynamics whose displacements follow
-/// the mean of the velocities. Multipliers and `normal` are along the normals half way between t_n and now (docs/formulation.md 20).
+/// the mean of the velocities. Multipliers and `normal` are along the normals half way between t_n and now (docs/formulation.md 21).
+/// Not with (UNSUPPORTED): the paper's slip measure (STICKSLIP_SLIP_PAPER); points that decide (STICKSLIP_DECISION_POINTS);
+/// the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (method.element_points); nodes that others
+/// carry (weak_coverage > 0, the default of dual multipliers); an analytic mortar side whose frame has equations; normals of
+/// the host; offsets; a layer between the surfaces (stickslip_interface_set_layer); a law of one's own; orthotropic
+/// friction; nodes that handles share (owned has STICKSLIP_NODE_SHARED); condensation; sums of several handles; heat;
+/// derivatives by positions of t_n and by parameters.
 pub const STICKSLIP_WEIGHTS_CONSERVING: i32 = 5;
 /// Of now, unless weights are frozen or the host gives normals: then of the last commit. Default.
 pub const STICKSLIP_NORMALS_AUTO: i32 = 0;
@@ -131,8 +134,9 @@ pub const STICKSLIP_DECISION_NODES: i32 = 0;
 /// weights (STICKSLIP_WEIGHTS_PERSISTENT); the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps
 /// (method.element_points); nodes that others carry (weak_coverage > 0, the default of dual multipliers); conserving weights
 /// (STICKSLIP_WEIGHTS_CONSERVING); an analytic mortar side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid
-/// nodes; a law of one's own; parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE); nodes that handles share (owned
-/// has STICKSLIP_NODE_SHARED); condensation; heat; derivatives by positions of t_n and by parameters.
+/// nodes; a law of one's own; a layer between the surfaces (stickslip_interface_set_layer); parts of an interface (owned has
+/// STICKSLIP_NODE_ELSEWHERE); nodes that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes
+/// (stickslip_interface_set_committed) and friction; condensation; heat; derivatives by positions of t_n and by parameters.
 pub const STICKSLIP_DECISION_POINTS: i32 = 1;
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
 pub const STICKSLIP_ROW_SCALE_FORCE: i32 = 0;

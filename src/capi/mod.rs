@@ -88,6 +88,8 @@ mod rigid;
 
 mod law;
 
+mod layer;
+
 mod heat;
 
 mod sensitivity;
@@ -118,6 +120,7 @@ pub use heat::*;
 pub use history::*;
 pub use interface::*;
 pub use law::*;
+pub use layer::*;
 pub use layout::*;
 pub use message::*;
 pub use method::*;

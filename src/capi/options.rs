@@ -18,7 +18,8 @@ pub const STICKSLIP_FRICTION_COULOMB: i32 = 0;
 pub const STICKSLIP_FRICTION_NONE: i32 = 1;
 /// Mesh tying: a node that is covered in the first configuration keeps its place; weights of the reference. A gap at the
 /// start stays, and turns with the non-mortar facets; linear where there is none.
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS).
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); a layer between the surfaces
+/// (stickslip_interface_set_layer).
 pub const STICKSLIP_FRICTION_TIED: i32 = 2;
 /// Opens and closes, never slips.
 pub const STICKSLIP_FRICTION_ROUGH: i32 = 3;

@@ -228,7 +228,12 @@ pub(super) fn node_tangents<const K: usize, const D: usize>(
         let s = scale.map_or(1.0, |s| s[a]);
         let (now, previous) = super::node::read_response(responses, a)?;
         let first = |m: Mat3| SMatrix::from_fn(|i, j| m[(i, j)] * s);
-        *node = NodeTangent { traction: *traction, drow_dnow: first(now), drow_dprevious: first(previous) };
+        *node = NodeTangent {
+            traction: *traction,
+            drow_dnow: first(now),
+            drow_dprevious: first(previous),
+            ..NodeTangent::default()
+        };
     }
     Ok(nodes)
 }

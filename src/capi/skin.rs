@@ -446,6 +446,10 @@ pub unsafe extern "C" fn stickslip_skin_states(
             raw::write_each(p, all.iter().map(of).flat_map(|v| <[f64; 3]>::from(v).into_iter().take(per)));
         }
         raw::write_each(out.state, all.iter().map(|c| c.state as i32));
+        // A skin has no layer.
+        for p in [out.worn, out.worn_volume, out.damage, out.bond_loss] {
+            raw::write_each(p, all.iter().map(|_| 0.0));
+        }
         Ok(())
     })
 }

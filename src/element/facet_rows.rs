@@ -61,6 +61,8 @@ pub struct FacetGaps<'a> {
     pub raise: Option<&'a Raise>,
     /// Do_A.
     pub offsets: &'a [Slopes],
+    /// Dm_A of the covered areas, where a row depends on them.
+    pub areas: &'a [Slopes],
 }
 
 /// d row / d x of a facet, in place of what is in `rows`, of as many columns.
@@ -72,7 +74,7 @@ pub fn facet_rows<const N: usize>(gaps: FacetGaps, nodes: &FacetResponse<N>, row
 /// The same of one multiplier, through how an answer of three components depends on its gaps of now and of t_n: `[column][j][i]`, with a
 /// fourth number that nobody takes.
 #[inline(never)]
-pub fn node_row(gaps: FacetGaps, k: usize, [now, before]: [&Mat3; 2], row: &mut [[[f64; 4]; 3]]) {
+pub fn node_row(gaps: FacetGaps, k: usize, ([now, before], area): ([&Mat3; 2], &Vec3), row: &mut [[[f64; 4]; 3]]) {
     let mut add = |column: usize, j: usize, of: Vec3| (0..3).for_each(|i| row[column][j][i] += of[i]);
     for (column, previous) in gaps.previous.iter().enumerate() {
         let fixed = gaps.fixed.get(column).map_or(0.0, |fixed| fixed[k]);
@@ -98,6 +100,9 @@ pub fn node_row(gaps: FacetGaps, k: usize, [now, before]: [&Mat3; 2], row: &mut 
         for (column, slopes) in gaps.offsets.iter().enumerate() {
             (0..3).for_each(|j| add(column, j, along * slopes[j][k]));
         }
+    }
+    for (column, slopes) in gaps.areas.iter().enumerate() {
+        (0..3).for_each(|j| add(column, j, area * slopes[j][k]));
     }
 }
 
@@ -173,6 +178,12 @@ impl<const N: usize> Kernel for RowsKernel<'_, N> {
                     for j in 0..3 {
                         row[j][n] = along.mul_add(L::load(&slopes[j]), L::load(&row[j][n])).store();
                     }
+                }
+            }
+            for (row, slopes) in rows.iter_mut().zip(gaps.areas) {
+                let area = L::load(&nodes.area[n]);
+                for j in 0..3 {
+                    row[j][n] = area.mul_add(L::load(&slopes[j]), L::load(&row[j][n])).store();
                 }
             }
         }

@@ -12,11 +12,18 @@ pub struct NodeTangent<const N: usize = 3, const D: usize = 3> {
     pub drow_dnow: SMatrix<f64, N, D>,
     /// dc/dg_previous times the row scale.
     pub drow_dprevious: SMatrix<f64, N, D>,
+    /// dc/dm by the covered area, times the row scale.
+    pub drow_darea: SVector<f64, N>,
 }
 
 impl<const N: usize, const D: usize> Default for NodeTangent<N, D> {
     fn default() -> Self {
-        NodeTangent { traction: SVector::zeros(), drow_dnow: SMatrix::zeros(), drow_dprevious: SMatrix::zeros() }
+        NodeTangent {
+            traction: SVector::zeros(),
+            drow_dnow: SMatrix::zeros(),
+            drow_dprevious: SMatrix::zeros(),
+            drow_darea: SVector::zeros(),
+        }
     }
 }
 
@@ -30,6 +37,8 @@ pub struct FacetResponse<const N: usize = 3> {
     pub traction: [[f64; MAX_CORNERS]; 3],
     pub(super) now: Rows<N>,
     pub(super) previous: Rows<N>,
+    /// `area[n][A]`.
+    pub(super) area: [[f64; MAX_CORNERS]; N],
 }
 
 impl<const N: usize> FacetResponse<N> {
@@ -39,8 +48,10 @@ impl<const N: usize> FacetResponse<N> {
             traction: [[0.0; MAX_CORNERS]; 3],
             now: [[[0.0; MAX_CORNERS]; 3]; N],
             previous: [[[0.0; MAX_CORNERS]; 3]; N],
+            area: [[0.0; MAX_CORNERS]; N],
         };
         for (a, node) in nodes.into_iter().enumerate() {
+            (0..N).for_each(|n| f.area[n][a] = node.drow_darea[n]);
             for j in 0..3 {
                 f.traction[j][a] = node.traction[j];
                 for n in 0..N {

@@ -45,6 +45,7 @@ pub fn row_columns<const N: usize>(
         previous: &previous,
         raise: None,
         offsets: &[],
+        areas: &[],
     };
     facet_rows(gaps, nodes, rows);
 }

@@ -40,7 +40,7 @@ fn setup() -> Setup<3> {
     let two = Surface::new("mortar", x2, &[vec![0, 1, 2, 3]], vec![[NO_EQUATION; 3]; 4]).unwrap();
     let options = Options { mu: 0.3, ..Options::paper(Stiffness::Modulus(1000.0)) };
     let mu = vec![0.3; 4];
-    let effects = Effects::of_three(&options, &two, &mu, None);
+    let effects = Effects::of_three(&options, &two, &mu, None, false);
     Setup::new((one, two), equations(12), options, mu, effects).unwrap()
 }
 

@@ -78,7 +78,9 @@ impl<const N: usize> Contact<N> {
 
     /// The multiplier rows at the last point.
     fn rows(&self) -> Result<Vec<Row>> {
-        self.cache.answers().responses.nodes.iter().map(Row::of).stored()
+        let gives_way = self.setup.layer.is_some();
+        let row = |response| if gives_way { Row::of(response).unreduced() } else { Row::of(response) };
+        self.cache.answers().responses.nodes.iter().map(row).stored()
     }
 
     /// The rows of the non-mortar nodes, and what is added to those of the mortar nodes; `host` as above. Of a node whose multiplier

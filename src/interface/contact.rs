@@ -28,7 +28,7 @@ use super::stages::sums::NodeSums;
 use super::stages::turn::refuse_turn;
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::{Mat3, Vec3};
-use crate::law::{Coefficient, NodeResponse};
+use crate::law::{Coefficient, Layer, NodeResponse};
 use crate::memory::{self, Store};
 use nalgebra::SVector;
 
@@ -65,7 +65,7 @@ impl Contact<3> {
             Coefficient::Always(mu) => mu,
         };
         let mu = memory::filled(mu, nonmortar.len())?;
-        let effects = Effects::of_three(&options, &mortar, &mu, None);
+        let effects = Effects::of_three(&options, &mortar, &mu, None, false);
         Self::build(Setup::new((nonmortar, mortar), multiplier_equations, options, mu, effects)?)
     }
 
@@ -76,10 +76,18 @@ impl Contact<3> {
             return Err(Error::new(Kind::InvalidValue, text));
         }
         self.setup.nodes.set_mu(mu)?;
-        let Setup { options, mortar, nodes, own, .. } = &self.setup;
-        self.setup.effects = Effects::of_three(options, mortar, &nodes.mu, own.as_ref());
+        self.renew_effects();
         self.cache.forget();
         Ok(())
+    }
+}
+
+impl Contact<3> {
+    /// What follows from law, coefficients and what lies between the surfaces.
+    pub(super) fn renew_effects(&mut self) {
+        let Setup { options, mortar, nodes, own, layer, .. } = &self.setup;
+        let slips = layer.as_ref().is_some_and(Layer::slips);
+        self.setup.effects = Effects::of_three(options, mortar, &nodes.mu, own.as_ref(), slips);
     }
 }
 
@@ -330,6 +338,7 @@ impl<const N: usize> Contact<N> {
         let hidden = self.step.pairing.take_hidden();
         (self.step.pairing, self.step.normals) = (pairing, self.setup.options.normals);
         let history = std::mem::replace(&mut self.step.history, history);
+        self.setup.nonmortar.layer = self.layer_reach(&self.step.history.states);
         self.cache.begin(&self.step.history, active);
         self.linear.forget();
         Before { history, hidden }
@@ -350,6 +359,7 @@ impl<const N: usize> Contact<N> {
     /// one was created with. No commit can then be undone.
     pub fn set_committed(&mut self, x1: &[Vec3], x2: &[Vec3], slip: &[Vec3], commits: i64) -> Result<()> {
         self.given().check_positions(x1, x2)?;
+        self.setup.refuse(&[(Feature::NodeHistory, true), (Feature::Friction, N == 3)])?;
         check_length("slip", slip.len(), self.setup.nonmortar.len())?;
         check_finite("slip", slip)?;
         if commits < 0 {
@@ -422,8 +432,26 @@ impl<const N: usize> Contact<N> {
     }
 
     /// The step that follows a converged one, to be accepted where all interfaces of a skin have found theirs.
-    #[inline(never)] // for a commit and its check
     pub(crate) fn next(
+        &mut self,
+        x1: &[Vec3],
+        x2: &[Vec3],
+        lambda: &[SVector<f64, N>],
+        sums: Option<&[NodeSums]>,
+    ) -> Result<Next> {
+        if self.setup.layer.is_none() {
+            return self.next_at(x1, x2, lambda, sums);
+        }
+        self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
+        let reach = self.layer_reach(&self.cache.answers().responses.own.states);
+        let before = std::mem::replace(&mut self.setup.nonmortar.layer, reach);
+        let next = self.next_at(x1, x2, lambda, sums);
+        self.setup.nonmortar.layer = before;
+        next
+    }
+
+    #[inline(never)] // for a commit and its check
+    fn next_at(
         &mut self,
         x1: &[Vec3],
         x2: &[Vec3],
@@ -494,13 +522,17 @@ impl<const N: usize> Contact<N> {
     }
 
     /// The pairs of the step before the last commit, to go back to where all interfaces of a skin have found theirs.
-    pub(crate) fn last(&self) -> Result<Pairing> {
+    pub(crate) fn last(&mut self) -> Result<Pairing> {
         let Some(Before { history, .. }) = &self.rollback else {
             let text = "no commit can be undone: none was made since creation, import or the last rollback";
             return Err(Error::new(Kind::NothingToRollBack, text));
         };
-        let filter = commit::filter_of(self.setup.surfaces(), &self.setup.options, history)?;
-        Pairing::new(&self.setup, filter, history)
+        let reach = self.layer_reach(&history.states);
+        let before = std::mem::replace(&mut self.setup.nonmortar.layer, reach);
+        let filter = commit::filter_of(self.setup.surfaces(), &self.setup.options, history);
+        let pairing = filter.and_then(|filter| Pairing::new(&self.setup, filter, history));
+        self.setup.nonmortar.layer = before;
+        pairing
     }
 
     /// Goes back to what [`Contact::last`] has found; nothing is refused.
@@ -530,7 +562,11 @@ impl<const N: usize> Contact<N> {
     /// Replaces the history by an imported one, after which no commit can be undone.
     pub fn import_history(&mut self, integers: &[i64], reals: &[f64]) -> Result<()> {
         let history = History::import((integers, reals), &self.host())?;
-        let filter = commit::filter_again(self.setup.surfaces(), &self.setup.options, &history, &mut self.cache.work)?;
+        let reach = self.layer_reach(&history.states);
+        let before = std::mem::replace(&mut self.setup.nonmortar.layer, reach);
+        let filter = commit::filter_again(self.setup.surfaces(), &self.setup.options, &history, &mut self.cache.work);
+        self.setup.nonmortar.layer = before;
+        let filter = filter?;
         let next = self.begin(Pairing::new(&self.setup, filter, &history)?, history);
         if self.setup.has_point_friction() {
             Points::default().check_memory(Given { setup: &self.setup, step: &next })?;

@@ -91,7 +91,7 @@ impl<const N: usize> Contact<N> {
         let responses = &self.cache.answers().responses;
         match self.setup.has_point_friction() {
             true => responses.points.friction.dissipation[a],
-            false => responses.nodes[a].traction.dot(&responses.nodes[a].slip),
+            false => (responses.nodes[a].traction - responses.own.bonded(a)).dot(&responses.nodes[a].slip),
         }
     }
 

@@ -18,6 +18,7 @@ mod data;
 mod evaluation;
 mod heat;
 mod inspect;
+mod layer;
 mod linear;
 mod linearisation;
 mod offsets;

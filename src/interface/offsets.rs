@@ -45,7 +45,7 @@ impl<const N: usize> Contact<N> {
     /// Seeks the pairs of the step again, which may be at other depths than when t_n was settled. Before the first commit t_n is
     /// settled again, too: otherwise nodes whose pairs were too deep count as uncovered then, and their first step would have no
     /// friction. Frozen weights are those of t_n, found then.
-    fn settle_again(&mut self) -> Result<()> {
+    pub(super) fn settle_again(&mut self) -> Result<()> {
         let weights = self.setup.options.effective_weights();
         if self.step.history.commits > 0 {
             if weights == Weights::Current {

@@ -2,11 +2,9 @@
 
 use super::compose::Feature;
 use super::contact::Contact;
-use super::data::effects::Effects;
 use super::data::options::Friction;
 use crate::error::{Error, Kind, Result};
 use crate::law::Own;
-use crate::memory;
 
 impl Contact<3> {
     /// The law in place of Coulomb's, from the next evaluation on; `None`: Coulomb's. What another law has remembered is
@@ -25,13 +23,12 @@ impl Contact<3> {
         self.setup.refuse(&[(Feature::OwnLaw, own.is_some()), (Feature::Orthotropic, is_orthotropic)])?;
         let kind = |own: &Option<Own>| own.map(|own| (own.number(), own.states()));
         if kind(&own) != kind(&self.setup.own) {
-            let n = self.setup.nonmortar.len() * own.map_or(0, |own| own.states());
-            self.step.history.states = memory::filled(0.0, n)?;
+            let new = [own.map_or(0, |own| own.states()), self.setup.states()[1]];
+            self.step.history.states = self.setup.states_of([None, Some(&self.step.history.states)], new)?;
             self.rollback = None;
         }
         self.setup.own = own;
-        self.setup.effects =
-            Effects::of_three(&self.setup.options, &self.setup.mortar, &self.setup.nodes.mu, self.setup.own.as_ref());
+        self.renew_effects();
         self.cache.forget();
         self.linear.forget();
         Ok(())
@@ -39,14 +36,19 @@ impl Contact<3> {
 }
 
 impl<const N: usize> Contact<N> {
-    /// What the law remembers of each node at t_n; empty of a law that remembers nothing.
+    /// What is remembered of each node at t_n, by the law, then by what lies between the surfaces; empty where nothing is.
     pub fn law_states(&self) -> &[f64] {
-        if self.setup.own.is_some() { &self.step.history.states } else { &[] }
+        if self.remembers() { &self.step.history.states } else { &[] }
+    }
+
+    /// Whether states are of nodes.
+    fn remembers(&self) -> bool {
+        self.setup.own.is_some() || self.setup.layer.is_some()
     }
 
     /// Replaces that, as after [`Contact::set_committed`]. No commit can then be undone.
     pub fn set_law_states(&mut self, states: &[f64]) -> Result<()> {
-        let kept: &mut [f64] = if self.setup.own.is_some() { &mut self.step.history.states } else { &mut [] };
+        let kept: &mut [f64] = if self.remembers() { &mut self.step.history.states } else { &mut [] };
         if states.len() != kept.len() {
             let text = text!("states has {} entries; the law remembers {}", states.len(), kept.len());
             return Err(Error::new(Kind::InvalidSize, text));
@@ -55,6 +57,7 @@ impl<const N: usize> Contact<N> {
             return Err(Error::new(Kind::NotFinite, text!("states[{k}] is {}; it must be finite", states[k])));
         }
         kept.copy_from_slice(states);
+        self.setup.nonmortar.layer = self.layer_reach(&self.step.history.states);
         self.rollback = None;
         self.cache.forget();
         Ok(())

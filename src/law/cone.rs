@@ -126,6 +126,7 @@ impl<C: Cone> Law<3> for C {
             drow_dlambda: (h - Mat3::identity()) / r,
             drow_dnow: normal - tangential * now,
             drow_dprevious: tangential,
+            drow_darea: Vec3::zeros(),
         }
     }
 

@@ -44,6 +44,7 @@ impl Law<1> for Frictionless {
             drow_dlambda: SMatrix::from([[(on - 1.0) / r]]),
             drow_dnow: node.normal.transpose() * on,
             drow_dprevious: SMatrix::zeros(),
+            drow_darea: SVector::zeros(),
         }
     }
 
@@ -83,6 +84,7 @@ impl Law<3> for Frictionless {
             drow_dlambda: (on - Mat3::identity()) / r,
             drow_dnow: on,
             drow_dprevious: Mat3::zeros(),
+            drow_darea: SVector::zeros(),
         }
     }
 

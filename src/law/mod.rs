@@ -9,15 +9,19 @@
 //! A law is a type: [`Coulomb`] (with an infinite coefficient: rough), [`Frictionless`], [`Tied`], [`Tresca`]; what the rest of the
 //! library knows of it is a row of [`LAWS`]. A host may put one of its own in Coulomb's place: [`Own`]. A node has N multiplier components, three or, without friction, one.
 
+mod bond;
 mod cone;
 mod coulomb;
 mod frictionless;
 mod heat;
+mod layer;
 mod node;
 mod orthotropic;
+mod overclosure;
 mod own;
 mod projection;
 mod question;
+mod rate;
 mod slip;
 mod special;
 mod stateless;
@@ -28,12 +32,15 @@ mod tresca;
 mod violation;
 mod weakening;
 
+pub use bond::Bond;
 pub use cone::{Cone, Trial, trial};
 pub use coulomb::Coulomb;
 pub use frictionless::Frictionless;
 pub use heat::{Conductance, FADES, FEW, HeatFlow, HeatNode, heat_flow};
+pub use layer::{Layer, LayerAnswer, LayerQuestion, LayerState};
 pub use node::{Law, Node, NodeResponse, Turn};
 pub use orthotropic::Orthotropic;
+pub use overclosure::{Overclosure, Squeeze};
 pub use own::{Host, OWN_NAMES, Own};
 pub use projection::{Projected, State, TIE, Threshold, project, project_parts};
 pub use question::{Answer, Question};

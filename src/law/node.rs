@@ -93,6 +93,8 @@ pub struct NodeResponse<const N: usize = 3> {
     pub drow_dnow: SMatrix<f64, N, 3>,
     /// dc/dg_previous [-]; dp/dg_previous likewise.
     pub drow_dprevious: SMatrix<f64, N, 3>,
+    /// dc/dm by the covered area `[L]`: what lies between the surfaces knows of it (`layer.rs`), no law does.
+    pub drow_darea: SVector<f64, N>,
 }
 
 impl<const N: usize> NodeResponse<N> {
@@ -109,6 +111,7 @@ impl<const N: usize> NodeResponse<N> {
             drow_dlambda: -SMatrix::identity() / r,
             drow_dnow: SMatrix::zeros(),
             drow_dprevious: SMatrix::zeros(),
+            drow_darea: SVector::zeros(),
         }
     }
 }

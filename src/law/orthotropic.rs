@@ -78,6 +78,7 @@ impl Law<3> for Orthotropic {
             drow_dlambda: l * r.drow_dlambda * inverse,
             drow_dnow: l * r.drow_dnow * l,
             drow_dprevious: l * r.drow_dprevious * l,
+            drow_darea: Vec3::zeros(),
         }
     }
 

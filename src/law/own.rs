@@ -3,6 +3,7 @@
 
 use super::projection::Threshold;
 use super::question::{Answer, Question};
+use super::rate;
 use super::special::Ellipse;
 use super::table::LAWS;
 use super::weakening;
@@ -23,6 +24,15 @@ pub enum Own {
         after: f64,
         /// The critical slip, > 0 `[L]`.
         slip: f64,
+    },
+    /// mu falls with the velocity of slip, towards another one.
+    Rate {
+        /// The coefficient of fast slip.
+        after: f64,
+        /// The velocity over which a share of 1/e is left of the difference, > 0 [L/T].
+        rate: f64,
+        /// How long the step takes, > 0 \[T\].
+        time: f64,
     },
     /// mu along a direction, another coefficient across it.
     Orthotropic(Ellipse),
@@ -50,7 +60,13 @@ impl PartialEq for Host {
 }
 
 /// Names in sentences, in the order of [`Own`].
-pub const OWN_NAMES: [&str; 4] = ["cohesion", "weakening friction", "orthotropic friction", "the host's own law"];
+pub const OWN_NAMES: [&str; 5] = [
+    "cohesion",
+    "weakening friction",
+    "orthotropic friction",
+    "the host's own law",
+    "friction that follows the rate of slip",
+];
 
 /// -dk / dsigma_N may be below zero by the rounding of a derivative that should be none.
 const ROUNDING_OF_FALL: f64 = 1e-12;
@@ -63,6 +79,7 @@ impl Own {
             Own::Weakening { .. } => 1,
             Own::Orthotropic(_) => 2,
             Own::Host(_) => 3,
+            Own::Rate { .. } => 4,
         };
         LAWS.len() + place
     }
@@ -70,7 +87,7 @@ impl Own {
     /// Numbers that it remembers of each node.
     pub fn states(&self) -> usize {
         match self {
-            Own::Cohesion { .. } | Own::Orthotropic(_) => 0,
+            Own::Cohesion { .. } | Own::Orthotropic(_) | Own::Rate { .. } => 0,
             Own::Weakening { .. } => 1,
             Own::Host(host) => host.states,
         }
@@ -91,6 +108,13 @@ impl Own {
             Own::Cohesion { cohesion } if !(cohesion >= 0.0 && cohesion.is_finite()) => {
                 refuse("cohesion", cohesion, "finite and not negative")
             }
+            Own::Rate { after, .. } if !(after >= 0.0 && after.is_finite()) => {
+                refuse("mu_after", after, "finite and not negative")
+            }
+            Own::Rate { rate, .. } if !(rate > 0.0 && rate.is_finite()) => {
+                refuse("critical_rate", rate, "positive and finite")
+            }
+            Own::Rate { time, .. } if !(time > 0.0 && time.is_finite()) => refuse("time", time, "positive and finite"),
             Own::Weakening { after, .. } if !(after >= 0.0 && after.is_finite()) => {
                 refuse("mu_after", after, "finite and not negative")
             }
@@ -118,6 +142,7 @@ impl Own {
                 Ok(Answer { threshold: Threshold { radius: cohesion + cone.radius, ..cone }, slope: Vec3::zeros() })
             }
             Own::Weakening { after, slip } => Ok(weakening::answer((after, slip), question, states)),
+            Own::Rate { after, rate, time } => Ok(rate::answer((after, rate * time), question)),
             // Not a threshold: the node is told the ellipse.
             Own::Orthotropic(_) => {
                 Ok(Answer { threshold: Threshold::cone(question.mu, question.normal), slope: Vec3::zeros() })

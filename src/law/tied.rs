@@ -36,6 +36,7 @@ impl Law<3> for Tied {
             drow_dlambda: (free - Mat3::identity()) / r,
             drow_dnow: free,
             drow_dprevious: Mat3::zeros(),
+            drow_darea: Vec3::zeros(),
         }
     }
 

@@ -151,12 +151,16 @@ impl Skin {
         let n = before.order.len();
         let (mut last, mut old, mut held) = (memory::with_room(n)?, memory::with_room(n)?, memory::with_room(n)?);
         for slot in &before.order {
-            let (one, pairing) = match *slot {
-                Slot::Kept(k) => (&self.held[k], Some(self.held[k].contact.last()?)),
-                Slot::Dropped(k) => (&before.dropped[k], None),
-            };
-            last.store(pairing)?;
-            old.store(one)?;
+            last.store(match *slot {
+                Slot::Kept(k) => Some(self.held[k].contact.last()?),
+                Slot::Dropped(_) => None,
+            })?;
+        }
+        for slot in &before.order {
+            old.store(match *slot {
+                Slot::Kept(k) => &self.held[k],
+                Slot::Dropped(k) => &before.dropped[k],
+            })?;
         }
         let friction = friction_of(&self.whole, &self.rules, (&before.start.sides, &before.start.near), &old)?;
         let (mut present, mut others) = (memory::with_room(self.held.len())?, memory::with_room(before.dropped.len())?);

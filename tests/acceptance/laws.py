@@ -30,6 +30,7 @@ def laws(verdicts, driver):
         cohesion(verdicts, driver, basis)
         weakening(verdicts, driver, basis)
         orthotropic(verdicts, driver, basis)
+        layers(verdicts, driver, basis)
     framed(verdicts, driver)
     condensed(verdicts, driver)
     ranks(verdicts, driver)
@@ -126,6 +127,37 @@ def orthotropic(verdicts, driver, basis):
     verdicts.below(f"orthotropic, {basis}: force", np.abs(found / exact - 1).max(), CLOSED, "the point of the ellipse with that normal")
 
 
+WEAR = 1e-3
+BOND = {"bond_stiffness": 10, "bond_strength": 0.5, "bond_toughness": 0.05}
+TABLE = {"overclosure": [0, 1e-3, 2e-3], "overclosure_pressure": [0, 1, 4]}
+
+
+def layers(verdicts, driver, basis):
+    """What lies between the block and its base: worn off, the product of pressure and way; a bond, its secant; a table, where the pressure is."""
+    ways, way = [(0, 0), (1, 0), (2, 0.25), (3, 1)], 0.08
+    run = driver.run(write(pulled(PRESSURE * STIFF, (way, 0), ways, basis, wear=WEAR), driver.output / f"worn_{basis}.yaml"))
+    no_cutbacks(verdicts, f"worn, {basis}", run)
+    table, volume = run.interface("base"), run.steps[-1]["interfaces"]["base"]["worn_volume"]
+    exact = WEAR * PRESSURE * way  # of an area of 1; friction tilts the pressure, and the load stays
+    verdicts.near(f"worn, {basis}: depth, the mean over k p s", table["worn"] @ table["area_covered"] / exact, 1, CLOSED, "one")
+    verdicts.near(f"worn, {basis}: volume over k p s", volume / exact, 1, CLOSED, "the area")
+    scene = pulled(PRESSURE * STIFF, (way, 0), ways, basis, **BOND)
+    scene["base"]["friction"] = 0
+    run = driver.run(write(scene, driver.output / f"bond_{basis}.yaml"))
+    first, last = BOND["bond_strength"] / BOND["bond_stiffness"], 2 * BOND["bond_toughness"] / BOND["bond_strength"]
+    for step, part in ((2, 0.25), (3, 1)):
+        share = min(1, (last - part * way) / (last - first) * first / (part * way))
+        verdicts.near(f"bond, {basis}: force at {part * way:g}", abs(force(run, step - 1)[0]), share * BOND["bond_stiffness"] * part * way, CLOSED, "the law's")
+    lost = run.steps[-1]["interfaces"]["base"]["bond_loss"]
+    verdicts.near(f"bond, {basis}: work lost", lost, BOND["bond_toughness"] * (way - first) / (last - first), CLOSED, "of its part of the toughness")
+    run = driver.run(write(pulled(1000, (0, 0), [(0, 0), (1, 1)], basis, **TABLE), driver.output / f"table_{basis}.yaml"))
+    table = run.interface("base")
+    depth, pressure = -table["gap_weighted"] / table["area_covered"], -table["lambda_n"]
+    exact = np.interp(pressure, TABLE["overclosure_pressure"], TABLE["overclosure"])
+    verdicts.below(f"table, {basis}: overlaps", np.abs(depth / exact - 1).max(), CONVERGED, "those of the pressures")
+    verdicts.near(f"table, {basis}: pressure", pressure @ table["area_covered"], PRESSURE, CLOSED, "the load")
+
+
 def framed(verdicts, driver):
     """The direction of an orthotropic law turns with the frame, as all else in the scene does: the block, held in space, is moved along it."""
     scene = pulled(PRESSURE * STIFF, (0, 0), [(0, 0), (1, 1)], "standard", law="orthotropic", friction_across=ACROSS, direction=ALONG)
@@ -151,9 +183,10 @@ def condensed(verdicts, driver):
 
 
 def ranks(verdicts, driver):
-    """The way that nodes have slipped goes with them where parts are shared out anew."""
+    """The way that nodes have slipped, and what is worn off and parted, goes with them where parts are shared out anew."""
     law = {"law": "weakening", "friction_after": 0.1, "critical_slip": 2.0}
     moving(verdicts, driver, "weakening slide", {**SLIDING, "contact": {**SLIDING["contact"], **law}}, (2,))
+    moving(verdicts, driver, "worn and bonded slide", {**SLIDING, "contact": {**SLIDING["contact"], "wear": 1e-4, **BOND}}, (2,))
 
 
 # The pad's facets are this long; it falls through two of them.

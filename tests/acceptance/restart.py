@@ -129,6 +129,8 @@ def spread():
 
 
 WEAKENING = {"law": "weakening", "friction_after": 0.1, "critical_slip": 0.2}
+LAYERS = {**WEAKENING, "overclosure": [0, 1e-3, 3e-3], "overclosure_pressure": [0, 1, 9], "wear": 1e-4, "bond_stiffness": 100,
+          "bond_strength": 1, "bond_toughness": 0.05}
 # Name, scene, options.
 SCENES = (
     ("pad", pad(), ()),
@@ -138,6 +140,7 @@ SCENES = (
     ("committed weights", pad(contact={"weights": "committed"}), ()),
     ("tied", pad(contact={"law": "tied", "friction": 0}, grip={"value": [0.01, 0.003, 0.002]}), ()),
     ("weakening", pad(contact=WEAKENING), ()),
+    ("layers", pad(contact=LAYERS), ()),
     ("points", pad(contact={"basis": "dual", "decision": "points", "weights": "reference"}, grip={"value": [0.01, 0.003, -0.01]}), ()),
     ("committed points", pad(contact={"basis": "dual", "decision": "points", "weights": "committed"}, grip={"value": [0.01, 0.003, -0.01]}), ()),
     ("offset", pad(contact={"offset": 0.01, "offset_curve": [0, 0, 2, 1]}), ()),

@@ -18,6 +18,8 @@ static struct {
   double raised1[N1], raised2[N2], remembered[N1];
   int64_t n_states, remembered_count;
   stickslip_law law;
+  stickslip_layer layer;
+  double overclosure[3], layer_pressure[3];
   stickslip_heat heat;
   double jump, pressure, node_gap, area, work;
   int32_t which;
@@ -204,6 +206,7 @@ FUNCTION(interface_set_threshold, (a[0], every_half, a[1], b.n_states), INTERFAC
 FUNCTION(interface_law_states, (a[0], b.capacity, a[1], a[2]), INTERFACE, {"states", b.remembered, OPTIONAL},
          {"count", &b.remembered_count, NEEDED})
 FUNCTION(interface_set_law_states, (a[0], b.n_states, a[1]), INTERFACE, {"states", b.remembered, NEEDED})
+FUNCTION(interface_set_layer, (a[0], a[1]), INTERFACE, {"layer", &b.layer, OPTIONAL})
 FUNCTION(interface_heat, (a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9]), AT, {"lambda", S.lambda, NEEDED},
          {"heat", &b.heat, NEEDED}, {"temperatures1", b.every.heat_t1, NEEDED}, {"temperatures2", b.every.heat_t2, NEEDED},
          {"heat1", b.every.heat1, NEEDED}, {"heat2", b.every.heat2, NEEDED}, {"heat_nodes", &b.every.heat_nodes, OPTIONAL})
@@ -297,7 +300,7 @@ static const struct {
     NAMED(interface_effects), NAMED(interface_report), NAMED(interface_diagnose), NAMED(interface_equilibrium),
     NAMED(interface_set_offsets), NAMED(interface_adjust), NAMED(interface_shape_offsets),
     NAMED(interface_heat), NAMED(interface_heat_tangent_coo), NAMED(node_heat),
-    NAMED(interface_previous_tangent_coo), NAMED(interface_adjoint), NAMED(interface_sensitivity), NAMED(interface_set_law), NAMED(interface_set_threshold), NAMED(interface_law_states), NAMED(interface_set_law_states),
+    NAMED(interface_previous_tangent_coo), NAMED(interface_adjoint), NAMED(interface_sensitivity), NAMED(interface_set_law), NAMED(interface_set_threshold), NAMED(interface_law_states), NAMED(interface_set_law_states), NAMED(interface_set_layer),
     NAMED(node_condense), NAMED(interface_carriers), NAMED(interface_condensed_multipliers), NAMED(interface_condensed_residual),
     NAMED(interface_condensed_coo), NAMED(interface_condensed_csr), NAMED(interface_condensed_pattern),
     NAMED(interface_use_normals), NAMED(interface_turn_multipliers), NAMED(facet_normal_derivatives), NAMED(node_turn),

@@ -242,6 +242,8 @@ static inline int32_t every_shape_offsets(every *c) {
 }
 /* Laws in place of Coulomb's, where the interface has that; its numbers are powers of two. */
 static inline int every_has_law(const every *c) { return c->h.s.options.friction == STICKSLIP_FRICTION_COULOMB; }
+/* Tied surfaces do not give way. */
+static inline int every_goes_with_layers(const every *c) { return c->h.s.options.friction != STICKSLIP_FRICTION_TIED; }
 static inline int32_t every_law(every *c) {
   const stickslip_law law = {.struct_size = sizeof law, .kind = STICKSLIP_LAW_WEAKENING, .mu_after = 0.25, .critical_slip = 0x1p-7};
   return every_has_law(c) ? stickslip_interface_set_law(c->h.s.interface, &law) : STICKSLIP_OK;
@@ -266,6 +268,14 @@ static inline int32_t every_law_states(every *c) {
 static inline int32_t every_set_law_states(every *c) {
   return stickslip_interface_set_law_states(c->h.s.interface, every_has_law(c) ? N1 : 0, c->law_states);
 }
+/* What lies between the surfaces; wear where there is friction. */
+static inline int32_t every_layer(every *c) {
+  static const double overclosure[] = {0, 0x1p-10, 0x1p-9}, pressure[] = {0, 1, 4};
+  const stickslip_layer layer = {.struct_size = sizeof layer, .n_overclosure = 3, .overclosure = overclosure, .pressure = pressure,
+                                 .wear = every_has_law(c) ? 0x1p-12 : 0};
+  return every_goes_with_layers(c) ? stickslip_interface_set_layer(c->h.s.interface, &layer) : STICKSLIP_OK;
+}
+static inline int32_t every_no_layer(every *c) { return stickslip_interface_set_layer(c->h.s.interface, NULL); }
 /* Numbers are powers of two: exact, for a caller's inexact operations may be trapped. An analytic mortar side has no temperatures. */
 static inline stickslip_heat every_heat_law(void) {
   const stickslip_heat heat = {.struct_size = sizeof heat, .contact = 2.0, .pressure = 0.5, .exponent = 0.5, .constant = 0.25,
@@ -650,6 +660,11 @@ static const entry_point every_call[] = {
     {"interface_law_states", every_law_states},
     {"interface_set_law_states", every_set_law_states},
     {"interface_set_law, NULL", every_no_law},
+    {"interface_set_layer", every_layer},
+    {"interface_residual, layer", every_residual},
+    {"interface_tangent_coo, layer", every_coo},
+    {"interface_equilibrium, layer", every_equilibrium},
+    {"interface_set_layer, NULL", every_no_layer},
     {"interface_heat", every_heat},
     {"interface_heat_tangent_coo", every_heat_coo},
     {"node_heat", every_node_heat},
@@ -867,6 +882,7 @@ static inline int32_t every_refusal(int k) {
     case 110: return stickslip_skin_history_import(NULL, 0, NULL, 0, NULL);
     case 111: return stickslip_skin_facets(NULL, NULL);
     case 112: return stickslip_skin_report(NULL, NULL);
+    case 113: return stickslip_interface_set_layer(NULL, NULL);
     default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
   }
 }

@@ -93,7 +93,11 @@ fn layouts() -> Vec<Layout> {
             area,
             dissipation,
             augmentation,
-            share
+            share,
+            worn,
+            worn_volume,
+            damage,
+            bond_loss
         }),
         layout!(stickslip_counters {
             struct_size,
@@ -193,9 +197,31 @@ fn layouts() -> Vec<Layout> {
             apart_scale,
             apart_node
         }),
-        layout!(stickslip_law { struct_size, kind, reserved, cohesion, mu_after, critical_slip, mu_across, direction }),
+        layout!(stickslip_law {
+            struct_size,
+            kind,
+            reserved,
+            cohesion,
+            mu_after,
+            critical_slip,
+            mu_across,
+            direction,
+            critical_rate,
+            time
+        }),
         layout!(stickslip_law_point { struct_size, node, normal, slip, slip_before, direction, mu }),
         layout!(stickslip_law_answer { struct_size, threshold, dthreshold_dnormal, dthreshold_dslip }),
+        layout!(stickslip_layer {
+            struct_size,
+            n_overclosure,
+            overclosure,
+            pressure,
+            wear,
+            bond_stiffness,
+            bond_strength,
+            bond_toughness,
+            bond_shear
+        }),
         layout!(stickslip_heat {
             struct_size,
             contact,

@@ -103,6 +103,10 @@ static void set_up(const char *name, int32_t base) {
   b.dx1[0] = 1.0;
   b.tolerance = 0.02;
   b.law = (stickslip_law){.struct_size = sizeof b.law, .kind = STICKSLIP_LAW_COHESION, .cohesion = 1.0};
+  for (int k = 0; k < 3; ++k) b.overclosure[k] = 0x1p-10 * k, b.layer_pressure[k] = 1.0 * k;
+  b.layer = (stickslip_layer){.struct_size = sizeof b.layer, .n_overclosure = 3, .overclosure = b.overclosure,
+                              .pressure = b.layer_pressure, .wear = 0x1p-12, .bond_stiffness = 64.0, .bond_strength = 1.0,
+                              .bond_toughness = 1.0, .bond_shear = 1.0};
   b.heat = every_heat_law();
   b.area = 1.0;
   b.shape = STICKSLIP_SHAPE_SPHERE;
@@ -236,6 +240,8 @@ static void tell(void) {
   bad_struct("diagnosis", "diagnosis", &b.every.diagnosis);
   bad_struct("equilibrium", "equilibrium", &b.every.equilibrium);
   bad_struct("law", "law", &b.law);
+  bad_struct("layer", "layer", &b.layer);
+  REALS("layer.overclosure", b.overclosure), REALS("layer.pressure", b.layer_pressure);
   bad_struct("heat", "heat", &b.heat);
   bad_struct("heat_nodes", "heat_nodes", &b.every.heat_nodes);
   REALS("temperatures1", b.every.heat_t1), REALS("temperatures2", b.every.heat_t2);

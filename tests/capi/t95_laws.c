@@ -176,9 +176,10 @@ int main(void) {
       {.struct_size = sizeof law, .kind = STICKSLIP_LAW_COHESION, .cohesion = 0.1},
       {.struct_size = sizeof law, .kind = STICKSLIP_LAW_WEAKENING, .mu_after = 0.2, .critical_slip = 0.01},
       {.struct_size = sizeof law, .kind = STICKSLIP_LAW_ORTHOTROPIC, .mu_across = 0.2, .direction = {1.0, 2.0, 3.0}},
+      {.struct_size = sizeof law, .kind = STICKSLIP_LAW_RATE, .mu_after = 0.1, .critical_rate = 0.01, .time = 1.0},
   };
-  static const char *const words[] = {"cohesion", "falls to", "orthotropic"};
-  for (int k = 0; k < 3; ++k) {
+  static const char *const words[] = {"cohesion", "falls to", "orthotropic", "rate of slip"};
+  for (int k = 0; k < 4; ++k) {
     char text[2048];
     CHECK_OK(stickslip_interface_set_law(plain.interface, &laws[k]));
     CHECK_OK(evaluate(&plain, &b));
@@ -186,6 +187,35 @@ int main(void) {
     CHECK_OK(stickslip_interface_effects(plain.interface, text, sizeof text));
     CHECK(strstr(text, words[k]));
   }
+
+  /* What lies between the surfaces: each part of it changes the rows, is told, and leaves nothing behind. */
+  CHECK_OK(stickslip_interface_set_law(plain.interface, NULL));
+  static const double overclosure[] = {0.0, 1e-3}, pressure[] = {0.0, 1.0};
+  static const stickslip_layer layers[] = {
+      {.struct_size = sizeof layers[0], .n_overclosure = 2, .overclosure = overclosure, .pressure = pressure},
+      {.struct_size = sizeof layers[0], .wear = 0.1},
+      {.struct_size = sizeof layers[0], .bond_stiffness = 10.0, .bond_strength = 0.1, .bond_toughness = 0.01, .bond_shear = 1.0},
+  };
+  static const char *const parts[] = {"yields", "wears", "bonded"};
+  static const int64_t remembered[] = {0, 2, 4};
+  for (int k = 0; k < 3; ++k) {
+    char text[2048];
+    int64_t count;
+    double worn[N1], damage[N1];
+    const stickslip_states out = {.struct_size = sizeof out, .worn = worn, .damage = damage};
+    CHECK_OK(stickslip_interface_set_layer(plain.interface, &layers[k]));
+    CHECK_OK(evaluate(&plain, &b));
+    CHECK(apart(b.rows, a.rows, X1) > 1e-6);
+    CHECK_OK(stickslip_interface_effects(plain.interface, text, sizeof text));
+    CHECK(strstr(text, parts[k]));
+    CHECK_OK(stickslip_interface_law_states(plain.interface, 0, NULL, &count));
+    CHECK(count == remembered[k] * N1);
+    CHECK_OK(stickslip_interface_states(plain.interface, plain.x1, plain.x2, plain.lambda, NULL, &out));
+    for (int n = 0; n < N1; ++n) CHECK(worn[n] >= 0.0 && damage[n] >= 0.0 && damage[n] <= 1.0);
+  }
+  CHECK_OK(stickslip_interface_set_layer(plain.interface, NULL));
+  CHECK_OK(evaluate(&plain, &b));
+  check_same(&b, &a);
   scene_destroy(&plain);
   return 0;
 }

@@ -33,7 +33,9 @@ program t95_laws
   real(c_double), parameter :: SAME_NUMBER = 1d-13
   type(scene), target, save :: s
   type(stickslip_law), target :: law
-  real(c_double), target :: factor, states(NA)
+  type(stickslip_layer), target :: layer
+  type(stickslip_states) :: out
+  real(c_double), target :: factor, states(NA), worn(NA), overclosure(2) = [0d0, 1d-3], pressure(2) = [0d0, 1d2]
   real(c_double) :: force1(3, NA), force2(3, NC), rows(3, NA), plain1(3, NA), plain(3, NA)
   integer(c_int64_t) :: n
 
@@ -68,5 +70,19 @@ program t95_laws
   law%kind = 9
   CHECK_REFUSED(stickslip_interface_set_law(s%contact, c_loc(law)), STICKSLIP_INVALID_VALUE, 'law.kind')
   CHECK_OK(stickslip_interface_set_law(s%contact, c_null_ptr))
+
+  layer%n_overclosure = 2
+  layer%overclosure = c_loc(overclosure)
+  layer%pressure = c_loc(pressure)
+  layer%wear = 1d-3
+  CHECK_OK(stickslip_interface_set_layer(s%contact, c_loc(layer)))
+  CHECK_OK(stickslip_interface_law_states(s%contact, 0_c_int64_t, c_null_ptr, n))
+  CHECK(n == 2 * NA)
+  out%worn = c_loc(worn)
+  CHECK_OK(stickslip_interface_states(s%contact, s%x1, s%x2, s%lambda, c_null_ptr, out))
+  CHECK(all(worn >= 0))
+  pressure(1) = 1
+  CHECK_REFUSED(stickslip_interface_set_layer(s%contact, c_loc(layer)), STICKSLIP_INVALID_VALUE, 'layer.pressure')
+  CHECK_OK(stickslip_interface_set_layer(s%contact, c_null_ptr))
   CHECK_OK(stickslip_interface_destroy(s%contact))
 end program

@@ -57,8 +57,9 @@ fn ellipse(across: f64) -> Own {
 }
 
 /// Every law, with numbers that make it differ from Coulomb's.
-fn laws() -> [Own; 5] {
+fn laws() -> [Own; 6] {
     [
+        Own::Rate { after: 0.2, rate: 0.4, time: 0.3 },
         Own::Cohesion { cohesion: 0.1 },
         Own::Weakening { after: 0.2, slip: 0.15 },
         Own::Weakening { after: 0.2, slip: 0.01 },
@@ -68,8 +69,14 @@ fn laws() -> [Own; 5] {
 }
 
 /// Those that are Coulomb's.
-fn coulombs() -> [Own; 4] {
-    [Own::Cohesion { cohesion: 0.0 }, Own::Weakening { after: MU, slip: 0.1 }, ellipse(MU), host(coulomb, 0)]
+fn coulombs() -> [Own; 5] {
+    [
+        Own::Rate { after: MU, rate: 0.1, time: 1.0 },
+        Own::Cohesion { cohesion: 0.0 },
+        Own::Weakening { after: MU, slip: 0.1 },
+        ellipse(MU),
+        host(coulomb, 0),
+    ]
 }
 
 fn error<const N: usize>(contact: &mut Contact<N>, x: (&[Vec3], &[Vec3]), lambda: &[SVector<f64, N>]) -> f64 {

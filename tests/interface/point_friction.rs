@@ -292,7 +292,8 @@ fn what_friction_at_points_does_not_go_with_is_refused_by_name() {
     refused(limited, "WEIGHTS_COMMITTED");
     let mut s = scene(by_points(0.4), CELLS[0], FLAT, 3);
     let slip = vec![Vec3::zeros(); s.x1.len()];
-    s.contact.set_committed(&s.x1, &s.x2, &slip, 1).unwrap();
+    let error = s.contact.set_committed(&s.x1, &s.x2, &slip, 1).unwrap_err();
+    assert!(error.kind == Kind::Unsupported && error.message.contains("history"), "{error}");
     let own = Own::Cohesion { cohesion: 0.1 };
     let error = s.contact.set_law(Some(own)).unwrap_err();
     assert!(error.kind == Kind::Unsupported && error.message.contains("law of one's own"), "{error}");

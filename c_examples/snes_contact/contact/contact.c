@@ -164,7 +164,7 @@ static PetscErrorCode settle(Contact *contact)
     PetscCall(PetscArraycpy(part->slip, part->rows, part->dimension * part->n1));
     PetscCall(parts_share(part, part->dimension, part->slip));
     PetscCallStickslip(law_keep(interface, part));
-    PetscCall(parts_share(part, 1, part->way));
+    if (interface->n_states) PetscCall(parts_share(part, interface->n_states, part->way));
     if (interface->halo.n_places) PetscCall(halo_settle(contact, interface));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

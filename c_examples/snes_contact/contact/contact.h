@@ -61,7 +61,7 @@ typedef struct {
   RigidPart *rigid; /* rigid_part.c; NULL: no rigid body moves here */
 
   double  *slip, *augmentation; /* n1: vectors up to t_n; what contact_scale_augmentation() has set */
-  double  *way;                 /* n1: what the law of the interface remembers of t_n, if anything */
+  double  *way;                 /* n_states n1: what law and layer of the interface remember of t_n, if anything */
   stickslip_counters spent;     /* of handles before this one: part_counters() */
 } ContactPart;
 
@@ -86,11 +86,15 @@ typedef struct {
   PetscBool told;
 } Frozen;
 
+/* What becomes of a node of what lies between the surfaces. */
+enum { LAYER_WORN, LAYER_VOLUME, LAYER_DAMAGE, LAYER_LOSS, N_LAYER_RESULTS };
+
 /* nodal results of the nodes at home; every array has n1 entries, vectors 3 n1, in the plane too */
 typedef struct {
   int32_t *state;
   double  *normal, *multiplier, *gap, *slip, *coverage, *area, *dissipation; /* multiplier: as a vector */
   double  *closed; /* of what is covered of a node, the part that is closed; by nodes 0 or 1 */
+  double  *layer;  /* N_LAYER_RESULTS n1 */
 } ContactStates;
 
 /* One contact interface: what the scene says of it, this rank's part, and what is known of the nodes that are at home here. */
@@ -123,6 +127,8 @@ typedef struct {
   stickslip_options options; /* its method is the next member */
   stickslip_method  method;
   stickslip_law  law;        /* in place of Coulomb's, if it is of another kind */
+  stickslip_layer layer;     /* what lies between the surfaces; its table is the interface's */
+  PetscInt       n_states;   /* numbers that law and layer remember of a node */
   PetscInt       dimension;  /* numbers a node of every vector here: 3, in the plane 2 */
   PetscInt       components; /* multipliers a node: 1, along the normal, without friction; else `dimension` */
   PetscBool      initial_contact; /* nodes that touch start slightly compressed: contact_start() */
@@ -323,6 +329,11 @@ int32_t law_set(const Interface *interface, stickslip_interface *handle);
 /* what it remembers, out of a part's handle after a commit, and into a new one */
 int32_t law_keep(const Interface *interface, ContactPart *part);
 int32_t law_restore(const Interface *interface, const ContactPart *part);
+/* layer.c; `layer_read` before `law_read` */
+void      layer_read(Scene *scene, Interface *interface);
+PetscBool layer_slips(Scene *scene, const char *name);
+PetscBool layer_is_there(const Interface *interface);
+int32_t   layer_set(const Interface *interface, stickslip_interface *handle);
 /* decision.c; `settle` when bodies are known */
 void           decision_read(Scene *scene, Interface *interface);
 PetscBool      decision_is_points(const Interface *interface);
@@ -409,7 +420,8 @@ enum {
   RESULT_AREA,
   RESULT_DISSIPATION,
   RESULT_CLOSED,
-  N_RESULTS
+  RESULT_LAYER, /* depth and volume worn off, damage, work that a bond has lost an area */
+  N_RESULTS = RESULT_LAYER + N_LAYER_RESULTS
 };
 PetscErrorCode contact_results(const ContactPart *part, double results[]);
 PetscErrorCode contact_states_destroy(ContactStates *states);

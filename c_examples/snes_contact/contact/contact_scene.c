@@ -336,6 +336,7 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact)
     PetscCall(PetscSNPrintf(interface->name, NAME_LENGTH, "%s", names[i]));
     PetscCall(begin_options(paper, interface));
     read_model(&contact->mesh->space, interface);
+    layer_read(scene, interface);
     law_read(scene, &contact->mesh->space, interface);
     mesh_rotate_vector(contact->mesh, interface->law.direction);
     read_effects(scene, interface);

@@ -49,7 +49,7 @@ void law_read(Scene *scene, const Space *space, Interface *interface)
 
   scene_real(scene, name, "friction", &mu);
   if (mu < 0) scene_fail(scene, name, "friction", "a Coulomb coefficient cannot be negative.");
-  if (!scene_has(scene, name, "law") && mu == 0) law = STICKSLIP_FRICTION_NONE;
+  if (!scene_has(scene, name, "law") && mu == 0 && !layer_slips(scene, name)) law = STICKSLIP_FRICTION_NONE;
   scene_choice(scene, name, "law", LAWS, &law);
   kind = law < FIRST_OWN ? STICKSLIP_LAW_COULOMB : STICKSLIP_LAW_COHESION + law - FIRST_OWN;
   read_own(scene, space, interface, kind, LAWS[law]);
@@ -61,6 +61,7 @@ void law_read(Scene *scene, const Space *space, Interface *interface)
   if (kind == STICKSLIP_LAW_ORTHOTROPIC && mu == 0)
     scene_fail(scene, name, "friction", "the law 'orthotropic' needs it above 0, along `direction`; without it there is none across, either.");
   if (kind != STICKSLIP_LAW_COULOMB) law = STICKSLIP_FRICTION_COULOMB;
+  if (kind == STICKSLIP_LAW_WEAKENING) interface->n_states++;
   if (law != STICKSLIP_FRICTION_COULOMB && law != STICKSLIP_FRICTION_TRESCA && mu != 0)
     scene_fail(scene, name, "friction", "the law '%s' has no Coulomb coefficient.", LAWS[law]);
   options->friction     = (int32_t)law;
@@ -72,18 +73,19 @@ void law_read(Scene *scene, const Space *space, Interface *interface)
 /* Of any handle of the interface's part. */
 int32_t law_set(const Interface *interface, stickslip_interface *handle)
 {
-  return interface->law.kind == STICKSLIP_LAW_COULOMB ? STICKSLIP_OK : stickslip_interface_set_law(handle, &interface->law);
+  const int32_t refused = interface->law.kind == STICKSLIP_LAW_COULOMB ? STICKSLIP_OK : stickslip_interface_set_law(handle, &interface->law);
+  return refused ? refused : layer_set(interface, handle);
 }
 
 int32_t law_keep(const Interface *interface, ContactPart *part)
 {
   int64_t count;
-  if (interface->law.kind != STICKSLIP_LAW_WEAKENING || !part->handle) return STICKSLIP_OK;
-  return stickslip_interface_law_states(part->handle, part->n1, part->way, &count);
+  if (!interface->n_states || !part->handle) return STICKSLIP_OK;
+  return stickslip_interface_law_states(part->handle, interface->n_states * part->n1, part->way, &count);
 }
 
 int32_t law_restore(const Interface *interface, const ContactPart *part)
 {
-  if (interface->law.kind != STICKSLIP_LAW_WEAKENING) return STICKSLIP_OK;
-  return stickslip_interface_set_law_states(part->handle, part->n1, part->way);
+  if (!interface->n_states) return STICKSLIP_OK;
+  return stickslip_interface_set_law_states(part->handle, interface->n_states * part->n1, part->way);
 }

@@ -165,7 +165,7 @@ static PetscErrorCode create_arrays(Contact *contact, PetscInt number)
   PetscCall(PetscCalloc5(n, &part->X, n, &part->x, n, &part->gathered, n, &part->forces, n, &part->equations));
   PetscCall(PetscCalloc4(n, &part->lambda, n, &part->lambda_start, n, &part->lambda_last, n, &part->lambda_before));
   PetscCall(PetscCalloc4(n, &part->host, n, &part->rows, n, &part->host_there, n, &part->x_there));
-  PetscCall(PetscCalloc3(d * part->n1, &part->slip, part->n1, &part->augmentation, part->n1, &part->way));
+  PetscCall(PetscCalloc3(d * part->n1, &part->slip, part->n1, &part->augmentation, interface->n_states * part->n1, &part->way));
   PetscCall(contact_equations(contact, part->sf, n, part->equations));
   PetscCall(number_multipliers(contact, part));
   PetscCall(homes_coordinates(interface, part->n1 + part->n2, part->nodes, part->X));

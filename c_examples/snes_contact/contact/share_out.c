@@ -12,22 +12,24 @@ static const PetscReal SPARE = 0.5;
 
 /* What travels with a node: multipliers of four times, forces of the bodies now and where the last matrix was made, slip, augmentation,
  * what the law remembers. */
-static PetscInt width(const ContactPart *part)
+static PetscInt width(const Interface *interface)
 {
-  return 4 * part->components + 3 * part->dimension + 2;
+  const ContactPart *part = &interface->part;
+  return 4 * part->components + 3 * part->dimension + 1 + interface->n_states;
 }
 
 /* to `packed` or from it, n1 nodes */
-static void pack(const ContactPart *part, double packed[], PetscBool from)
+static void pack(const Interface *interface, double packed[], PetscBool from)
 {
-  const PetscInt c = part->components, d = part->dimension;
+  const ContactPart *part = &interface->part;
+  const PetscInt     c = part->components, d = part->dimension;
   const struct {
     double  *of;
     PetscInt width;
   } arrays[] = {{part->lambda, c},   {part->lambda_start, c}, {part->lambda_last, c}, {part->lambda_before, c}, {part->host, d},
-                {part->host_there, d}, {part->slip, d},       {part->augmentation, 1}, {part->way, 1}};
+                {part->host_there, d}, {part->slip, d},       {part->augmentation, 1}, {part->way, interface->n_states}};
   for (PetscInt a = 0; a < part->n1; a++) {
-    double *at = packed + width(part) * a;
+    double *at = packed + width(interface) * a;
     for (size_t k = 0; k < sizeof(arrays) / sizeof(*arrays); k++) {
       for (PetscInt i = 0; i < arrays[k].width; i++, at++) {
         double *value = arrays[k].of + arrays[k].width * a + i;
@@ -46,11 +48,11 @@ PetscErrorCode parts_knowledge(const Interface *interface, PetscInt *n_a_node, d
   const ContactPart *part = &interface->part;
   double            *here;
   PetscFunctionBegin;
-  *n_a_node = width(part);
-  PetscCall(PetscMalloc1(width(part) * part->n1, &here));
-  PetscCall(PetscMalloc1(width(part) * interface->n1, all));
-  pack(part, here, PETSC_FALSE);
-  PetscCall(parts_collect(part, width(part), here, *all));
+  *n_a_node = width(interface);
+  PetscCall(PetscMalloc1(width(interface) * part->n1, &here));
+  PetscCall(PetscMalloc1(width(interface) * interface->n1, all));
+  pack(interface, here, PETSC_FALSE);
+  PetscCall(parts_collect(part, width(interface), here, *all));
   PetscCall(PetscFree(here));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -61,10 +63,10 @@ PetscErrorCode parts_hand_out(const Interface *interface, double *all)
   const ContactPart *part = &interface->part;
   double            *here;
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(width(part) * part->n1, &here));
-  PetscCall(parts_send(part, width(part), all, here));
-  PetscCall(parts_share(part, width(part), here));
-  pack(part, here, PETSC_TRUE);
+  PetscCall(PetscCalloc1(width(interface) * part->n1, &here));
+  PetscCall(parts_send(part, width(interface), all, here));
+  PetscCall(parts_share(part, width(interface), here));
+  pack(interface, here, PETSC_TRUE);
   PetscCall(PetscFree(here));
   PetscCall(PetscFree(all));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -11,7 +11,7 @@ PetscErrorCode contact_results(const ContactPart *part, double results[])
   if (!part->handle) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc7(n1, &wanted.state, d * n1, &wanted.normal, n1, &wanted.gap, d * n1, &wanted.slip, n1,
                          &wanted.coverage, n1, &wanted.area, n1, &wanted.dissipation));
-  PetscCall(PetscMalloc1(n1, &wanted.share));
+  PetscCall(PetscMalloc5(n1, &wanted.share, n1, &wanted.worn, n1, &wanted.worn_volume, n1, &wanted.damage, n1, &wanted.bond_loss));
   PetscCallStickslip(stickslip_interface_states(part->handle, STATE_OF(part), NULL, &wanted));
   for (PetscInt a = 0; a < n1; a++) {
     double *r = results + N_RESULTS * a;
@@ -26,10 +26,14 @@ PetscErrorCode contact_results(const ContactPart *part, double results[])
     r[RESULT_AREA]        = wanted.area[a];
     r[RESULT_DISSIPATION] = wanted.dissipation[a];
     r[RESULT_CLOSED]      = wanted.share[a];
+    r[RESULT_LAYER + LAYER_WORN]   = wanted.worn[a];
+    r[RESULT_LAYER + LAYER_VOLUME] = wanted.worn_volume[a];
+    r[RESULT_LAYER + LAYER_DAMAGE] = wanted.damage[a];
+    r[RESULT_LAYER + LAYER_LOSS]   = wanted.bond_loss[a];
   }
   PetscCall(PetscFree7(wanted.state, wanted.normal, wanted.gap, wanted.slip, wanted.coverage, wanted.area,
                        wanted.dissipation));
-  PetscCall(PetscFree(wanted.share));
+  PetscCall(PetscFree5(wanted.share, wanted.worn, wanted.worn_volume, wanted.damage, wanted.bond_loss));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -40,7 +44,7 @@ static PetscErrorCode store(const double results[], PetscInt n1, ContactStates *
   if (!states->state) {
     PetscCall(PetscMalloc7(n1, &states->state, 3 * n1, &states->normal, n1, &states->gap, 3 * n1, &states->slip, n1,
                            &states->coverage, n1, &states->area, n1, &states->dissipation));
-    PetscCall(PetscMalloc2(3 * n1, &states->multiplier, n1, &states->closed));
+    PetscCall(PetscMalloc3(3 * n1, &states->multiplier, n1, &states->closed, N_LAYER_RESULTS * n1, &states->layer));
   }
   for (PetscInt a = 0; a < n1; a++) {
     const double *r        = results + N_RESULTS * a;
@@ -53,6 +57,7 @@ static PetscErrorCode store(const double results[], PetscInt n1, ContactStates *
     PetscCall(PetscArraycpy(states->normal + 3 * a, r + RESULT_NORMAL, 3));
     PetscCall(PetscArraycpy(states->multiplier + 3 * a, r + RESULT_MULTIPLIER, 3));
     PetscCall(PetscArraycpy(states->slip + 3 * a, r + RESULT_SLIP, 3));
+    PetscCall(PetscArraycpy(states->layer + N_LAYER_RESULTS * a, r + RESULT_LAYER, N_LAYER_RESULTS));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -201,6 +206,6 @@ PetscErrorCode contact_states_destroy(ContactStates *states)
   PetscFunctionBegin;
   PetscCall(PetscFree7(states->state, states->normal, states->gap, states->slip, states->coverage, states->area,
                        states->dissipation));
-  PetscCall(PetscFree2(states->multiplier, states->closed));
+  PetscCall(PetscFree3(states->multiplier, states->closed, states->layer));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -66,12 +66,18 @@ static void format_row(const Interface *interface, const ContactStates *states, 
   for (int i = 0; i < 3; i++)
     used += snprintf(row + used, (size_t)(ROW - used), ",%.17g", traction[i] - pressure * n[i]);
   if (decision_is_points(interface)) snprintf(row + used, (size_t)(ROW - used), ",%.17g", states->closed[a]);
+  if (layer_is_there(interface)) {
+    const double *layer = states->layer + N_LAYER_RESULTS * a;
+    snprintf(row + used, (size_t)(ROW - used), ",%.17g,%.17g", layer[LAYER_WORN], layer[LAYER_DAMAGE]);
+  }
 }
 
 PetscErrorCode csv_write(Output *output, const Interface *interface, const ContactStates *states, const double *temperatures,
                          PetscInt step)
 {
-  static const char *const further[2][2] = {{"", ",temperature"}, {",closed", ",closed,temperature"}};
+  static const char *const further[3][2] = {
+      {"", ",temperature"}, {",closed", ",closed,temperature"}, {",worn,damage", ",worn,damage,temperature"}};
+  const int has = decision_is_points(interface) ? 1 : layer_is_there(interface) ? 2 : 0;
   char    path[PETSC_MAX_PATH_LEN], row[ROW];
   double *tractions;
   FILE   *file;
@@ -84,7 +90,7 @@ PetscErrorCode csv_write(Output *output, const Interface *interface, const Conta
   PetscCall(open_file(output, path,
                       "node,X,Y,Z,ux,uy,uz,nx,ny,nz,lambda_n,lambda_tx,lambda_ty,lambda_tz,gap_weighted,slip_x,slip_y,slip_z,"
                       "area_covered,area_full,fx,fy,fz,p_lumped,state,t_lumped_x,t_lumped_y,t_lumped_z",
-                      further[decision_is_points(interface)][temperatures != NULL], &file));
+                      further[has][temperatures != NULL], &file));
   for (PetscInt a = 0; a < interface->n1; a++) {
     format_row(interface, states, a, tractions + 3 * a, row);
     if (temperatures) snprintf(row + strlen(row), ROW - strlen(row), ",%.17g", temperatures[a]);

@@ -98,6 +98,22 @@ static PetscErrorCode add_closed_area(const Interface *interface, cJSON *json)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* volume worn off [L^3]; work that a bond has lost [F L] */
+static PetscErrorCode add_layer(const Interface *interface, cJSON *json)
+{
+  double sums[2] = {0, 0};
+  PetscFunctionBegin;
+  for (PetscInt a = 0; a < interface->n1; a++) {
+    const double *layer = interface->states.layer + N_LAYER_RESULTS * a;
+    sums[0] += layer[LAYER_VOLUME];
+    sums[1] += layer[LAYER_LOSS] * interface->states.coverage[a];
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
+  cJSON_AddNumberToObject(json, "worn_volume", sums[0]);
+  cJSON_AddNumberToObject(json, "bond_loss", sums[1]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Force, counts and CSV file of one interface; returns a piece of the progress line. */
 static PetscErrorCode interface_results(Output *output, Interface *interface, const double *temperatures, PetscInt step, PetscBool write,
                                         cJSON *parent, double *work, char progress[], size_t length)
@@ -129,6 +145,7 @@ static PetscErrorCode interface_results(Output *output, Interface *interface, co
   cJSON_AddNumberToObject(json, "lag", interface->lag.amount);
   cJSON_AddNumberToObject(json, "lag_force", interface->lag_force);
   if (decision_is_points(interface)) PetscCall(add_closed_area(interface, json));
+  if (layer_is_there(interface)) PetscCall(add_layer(interface, json));
   if (!weights_are_of_now(interface)) cJSON_AddNumberToObject(json, "slid", interface->slide.amount);
   if (interface->method.weights == STICKSLIP_WEIGHTS_REFERENCE) cJSON_AddNumberToObject(json, "turned", interface->turn.amount);
   if (interface->tied_gap > 0) cJSON_AddNumberToObject(json, "tied_gap", interface->tied_gap);

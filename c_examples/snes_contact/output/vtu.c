@@ -20,7 +20,7 @@ static void integers(FILE *file, const char *name, PetscInt n, const double valu
 }
 
 /* what is written of an interface's nodes at home */
-enum { MULTIPLIER, FORCE = MULTIPLIER + 3, TRACTION = FORCE + 3, PRESSURE = TRACTION + 3, CLOSED, STATE, N_FIELDS };
+enum { MULTIPLIER, FORCE = MULTIPLIER + 3, TRACTION = FORCE + 3, PRESSURE = TRACTION + 3, CLOSED, WORN, DAMAGE, STATE, N_FIELDS };
 
 static PetscErrorCode nodal_fields(const Mesh *mesh, const Interface *interface, double fields[])
 {
@@ -43,6 +43,8 @@ static PetscErrorCode nodal_fields(const Mesh *mesh, const Interface *interface,
       f[PRESSURE] += tractions[3 * a + i] * states->normal[3 * a + i];
     }
     f[CLOSED] = states->closed[a];
+    f[WORN]   = states->layer[N_LAYER_RESULTS * a + LAYER_WORN];
+    f[DAMAGE] = states->layer[N_LAYER_RESULTS * a + LAYER_DAMAGE];
     f[STATE]  = states->state[a];
   }
   PetscCall(PetscFree(tractions));
@@ -86,6 +88,11 @@ static PetscErrorCode interface_fields(FILE *file, const Physics *physics, const
   if (decision_is_points(interface)) {
     take(n, fields, CLOSED, 1, values);
     PetscCall(PetscSNPrintf(name, sizeof(name), "closed_%s", interface->name));
+    scalars(file, name, n, values);
+  }
+  for (int k = 0; k < 2 && layer_is_there(interface); k++) {
+    take(n, fields, k ? DAMAGE : WORN, 1, values);
+    PetscCall(PetscSNPrintf(name, sizeof(name), "%s_%s", k ? "damage" : "worn", interface->name));
     scalars(file, name, n, values);
   }
   take(n, fields, STATE, 1, values);

@@ -13,7 +13,7 @@ from .skin import Integers, Reals
 _COLOURS = {State.GAP: "0.75", State.STICK: "tab:blue", State.SLIP: "tab:orange"}
 # Along the longest axis.
 _TICKS = 6
-_NUMBERS = ("pressure", "traction", "gap", "slip", "coverage", "area", "dissipation", "augmentation", "share")
+_NUMBERS = ("pressure", "traction", "gap", "slip", "coverage", "area", "dissipation", "augmentation", "share", "worn", "damage")
 
 
 def drawn(positions: Reals, facets: list[Integers], states: States, what: str, axes: Any) -> Any:

@@ -45,9 +45,10 @@ class Laws:
     _law_error: Exception | None = None
 
     def set_law(self, kind: str = "coulomb", **numbers: float | Sequence[float]) -> None:
-        """A law of the library: "coulomb", "cohesion", "weakening" or "orthotropic", with its numbers.
+        """A law of the library: "coulomb", "cohesion", "weakening", "orthotropic" or "rate", with its numbers.
 
         cohesion: ``cohesion`` [F/L^2]. weakening: ``mu_after``, ``critical_slip`` [L]. orthotropic: ``mu_across``, ``direction``, (3,).
+        rate: ``mu_after``, ``critical_rate`` [L/T], and ``time`` [T], what the step takes: set it again where that changes.
         The coefficient of the interface, ``mu``, is the one to begin with, or the one along the direction.
         """
         law = ffi.new("struct stickslip_law *", {"struct_size": ffi.sizeof("struct stickslip_law")})
@@ -86,8 +87,27 @@ class Laws:
         self._call("set_threshold", function, ffi.NULL, int(n_states))
         self._kept_law = function
 
+    def set_layer(self, overclosure: ArrayLike | None = None, **numbers: float) -> None:
+        """What lies between the surfaces, beside the law of friction; without arguments nothing.
+
+        ``overclosure``, (n, 2): by how much the meshed surfaces overlap [L], and the pressure there [F/L^2], from 0 up. ``wear``: depth that is
+        worn off a pressure and a slip [L^2/F]. A bond: ``bond_stiffness`` [F/L^3], ``bond_strength`` [F/L^2] in tension,
+        ``bond_toughness`` [F/L], and ``bond_shear``, the strength in shear over that in tension.
+        """
+        layer = ffi.new("struct stickslip_layer *", {"struct_size": ffi.sizeof("struct stickslip_layer")})
+        known = ("wear", "bond_stiffness", "bond_strength", "bond_toughness", "bond_shear")
+        for name, value in numbers.items():
+            if name not in known:
+                raise TypeError(f"{name}: no number of a layer; there are {', '.join(known)}")
+            setattr(layer, name, float(value))
+        if overclosure is not None:
+            points = given("overclosure", overclosure, (np.shape(overclosure)[0] if np.ndim(overclosure) else 0, 2))
+            depth, pressure = np.ascontiguousarray(points[:, 0]), np.ascontiguousarray(points[:, 1])
+            layer.n_overclosure, layer.overclosure, layer.pressure = len(points), pointer(depth), pointer(pressure)
+        self._call("set_layer", layer)
+
     def law_states(self) -> Array:
-        """What the law remembers at the last commit, (n1, states a node)."""
+        """What is remembered at the last commit by the law, then by what lies between the surfaces, (n1, states a node)."""
         count = ffi.new("int64_t *")
         self._call("law_states", 0, ffi.NULL, count)
         states = np.empty((self.n1, count[0] // self.n1))

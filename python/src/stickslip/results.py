@@ -44,6 +44,12 @@ class States:
     augmentation: Reals
     #: Which part of what is covered is closed.
     share: Reals
+    #: Depth and volume that are worn off, this step's included [L], [L^3].
+    worn: Reals
+    worn_volume: Reals
+    #: Damage of the bond, 0 to 1, and the work that it has lost an area [F/L].
+    damage: Reals
+    bond_loss: Reals
     #: Whether it has a multiplier.
     bearing: NDArray[np.bool_]
 

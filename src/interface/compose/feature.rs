@@ -52,6 +52,8 @@ features! {
     PaperSlip "the paper's slip measure (STICKSLIP_SLIP_PAPER)" "take STICKSLIP_SLIP_OBJECTIVE or STICKSLIP_SLIP_INCREMENT";
     Friction "friction" "take STICKSLIP_FRICTION_NONE";
     Tied "tied surfaces (STICKSLIP_FRICTION_TIED)" "take another law";
+    Layer "a layer between the surfaces (stickslip_interface_set_layer)" "leave it out";
+    LayerSlips "wear or a bond (stickslip_layer)" "give the overclosure alone";
     OwnLaw "a law of one's own" "leave Coulomb's";
     Orthotropic "orthotropic friction" "give one mu";
     Points "points that decide (STICKSLIP_DECISION_POINTS)" "take STICKSLIP_DECISION_NODES";
@@ -72,6 +74,7 @@ features! {
     Heat "heat" "";
     Derivatives "derivatives by positions of t_n and by parameters" "";
     WeightsCommitted "weights of the last commit (STICKSLIP_WEIGHTS_COMMITTED)" "take STICKSLIP_WEIGHTS_CURRENT";
+    NodeHistory "a history of nodes (stickslip_interface_set_committed)" "import one of points (stickslip_interface_history_import)";
     ShapeOffsets "offsets that follow from a shape" "";
 }
 

@@ -118,15 +118,21 @@ rows! {
     Meaningless [HostNormals Conserving] "gaps would be no functions of the places" [HostNormals Conserving];
     Meaningless [HostNormals NormalsNow] "they would not follow the motion" [NormalsNow HostNormals];
     NotBuilt [OwnLaw Points] "it is asked at nodes" [Points];
+    NotBuilt [Layer Points] "it is asked at nodes" [Points];
+    NotBuilt [Layer KeptOverlaps] "what it overlaps by at the last commit would count as closed" [KeptOverlaps];
+    Meaningless [Layer Tied] "tied surfaces neither open nor slip, nor give way" [Layer Tied];
+    Meaningless [LayerSlips PaperSlip] "it follows slip, which that measure makes of curved surfaces at rest" [PaperSlip];
     Meaningless [Orthotropic Lines] "a plane or axisymmetric model has one direction to slip in" [Orthotropic];
     Meaningless [MortarOffsets Analytic] "it has no nodes; move or resize the shape" [MortarOffsets];
     NotBuilt [Offsets KeptOverlaps] "what they overlap by at the last commit would count as closed, and one that grows would press nothing" [KeptOverlaps];
     NotBuilt [Offsets Conserving] "" [Conserving];
+    NotBuilt [Layer Conserving] "" [Conserving];
     NotBuilt [OwnLaw Conserving] "" [Conserving];
     NotBuilt [Orthotropic Conserving] "" [Conserving];
     NotBuilt [Shared Conserving] "forces follow the gaps of all handles" [Shared];
     NotBuilt [Points Elsewhere] "tractions of a facet need the gaps of all of its nodes" [Points];
     NotBuilt [Points Shared] "tractions of a facet need the gaps of all of its nodes" [Points];
+    NotBuilt [NodeHistory Points Friction] "what points remember is not in it" [NodeHistory];
     // What is asked.
     Meaningless [Condensed StandardBasis] "their forces couple neighbours" [StandardBasis];
     Meaningless [Condensed Points] "a facet's mass matrix couples its multipliers" [Condensed Points];
@@ -150,6 +156,7 @@ rows! {
     NotBuilt [Derivatives Conserving] "forces follow the positions of t_n, too" [Conserving];
     NotBuilt [Derivatives Points] "points remember tractions" [Points];
     NotBuilt [Derivatives OwnLaw] "what it remembers is the host's" [OwnLaw];
+    NotBuilt [Derivatives Layer] "what it remembers, and covered areas, follow the positions of t_n" [Layer];
     NotBuilt [Derivatives Orthotropic] "its axes follow the positions of all steps" [Orthotropic];
     NotBuilt [Derivatives Shared] "a row is of the gaps of all handles" [Shared];
     Meaningless [ShapeOffsets Analytic] "it is one" [];

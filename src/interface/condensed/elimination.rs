@@ -71,6 +71,11 @@ impl Row {
         }
     }
 
+    /// The same of a node whose constraint gives way, with what lies between the surfaces: the reduced form leaves its rows as they are.
+    pub fn unreduced(self) -> Row {
+        Row { state: State::Gap, ..self }
+    }
+
     /// Gap, stick or slip.
     pub fn state(&self) -> State {
         self.state

@@ -12,6 +12,8 @@
 //!
 //! Where friction is not the same in all directions a sticking node's row is its gap stretched, L^2 g; E_BB takes the stretch out.
 //!
+//! With what lies between the surfaces a closed node's row has its multiplier in it, and is no constraint: Q is 0 then.
+//!
 //! Both are invertible, so the solution is that of the condensed system. E_L J E_R has the constraint s_B D_B Q_B v_B = known
 //! in place of a penalty, and for the rest the stiffness of the bodies tied along Q.
 

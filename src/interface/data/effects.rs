@@ -53,14 +53,15 @@ impl Effects<1> {
 }
 
 impl Effects<3> {
-    /// Three multipliers a node; `mu` of every node; `own`: the host's law.
-    pub fn of_three(options: &Options, mortar: &Surface, mu: &[f64], own: Option<&Own>) -> Effects<3> {
+    /// Three multipliers a node; `mu` of every node; `own`: the host's law; `slips`: whether anything else asks for slip.
+    pub fn of_three(options: &Options, mortar: &Surface, mu: &[f64], own: Option<&Own>, slips: bool) -> Effects<3> {
         let row = options.friction.law();
-        let smooth = row.mu == Coefficient::Given && options.shortcuts.frictionless && mu.iter().all(|&mu| mu == 0.0);
+        let smooth =
+            !slips && row.mu == Coefficient::Given && options.shortcuts.frictionless && mu.iter().all(|&mu| mu == 0.0);
         let law = match own.filter(|_| features::LAWS.built) {
             Some(Own::Orthotropic(_)) if !smooth => LawFunctions::ORTHOTROPIC,
             None | Some(Own::Orthotropic(_)) if smooth => LawFunctions::<3>::FRICTIONLESS,
-            Some(Own::Cohesion { .. } | Own::Weakening { .. } | Own::Host(_)) => LawFunctions::TOLD,
+            Some(Own::Cohesion { .. } | Own::Weakening { .. } | Own::Rate { .. } | Own::Host(_)) => LawFunctions::TOLD,
             None | Some(Own::Orthotropic(_)) => row.functions,
         };
         Effects { law, opposite: opposite(options, mortar) }

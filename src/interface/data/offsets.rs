@@ -26,16 +26,16 @@ pub fn are_there((one, two): (&Surface, &Surface)) -> bool {
     features::OFFSETS.built && !(one.offsets.is_empty() && two.offsets.is_empty())
 }
 
-/// How far offsets close a gap, and how far they open one, at most `[L]`; neither is negative.
+/// How far offsets, and what lies between the surfaces, close a gap, and how far they open one, at most `[L]`; neither is negative.
 pub fn reach((one, two): (&Surface, &Surface)) -> (f64, f64) {
-    let (one, two) = (range(one), range(two));
-    ((-one.0 - two.0).max(0.0), (one.1 + two.1).max(0.0))
+    let ((low, high), of_two) = (range(one), range(two));
+    ((-low - of_two.0).max(0.0) + one.layer[0], (high + of_two.1).max(0.0) + one.layer[1])
 }
 
 /// The same of a non-mortar side whose other side has none.
 pub fn reach_of(one: &Surface) -> (f64, f64) {
     let (low, high) = range(one);
-    ((-low).max(0.0), high.max(0.0))
+    ((-low).max(0.0) + one.layer[0], high.max(0.0) + one.layer[1])
 }
 
 /// The least and the largest offset of a side.

@@ -31,7 +31,7 @@ pub enum Weights {
     Reference,
     /// The same, and what overlaps at t_n counts as closed there: contact does no work to part it (docs/formulation.md 4.9).
     Persistent,
-    /// Of now, and gaps are functions of the places alone: contact takes exactly what they change by (docs/formulation.md 20).
+    /// Of now, and gaps are functions of the places alone: contact takes exactly what they change by (docs/formulation.md 21).
     Conserving,
 }
 

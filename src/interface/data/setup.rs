@@ -13,9 +13,10 @@ use super::surface::{NO_EQUATION, Surface, frames};
 use super::what;
 use crate::error::{Error, Kind, Result};
 use crate::interface::compose::{self, Feature, Features};
-use crate::law::Own;
-use crate::memory;
+use crate::law::{Layer, Own};
+use crate::memory::{self, Store};
 use crate::mortar::MultiplierSpace;
+use std::ops::Range;
 
 /// What an interface is.
 #[derive(Debug)]
@@ -34,6 +35,8 @@ pub struct Setup<const N: usize> {
     pub nodes: NodeData,
     /// The host's law in place of Coulomb's.
     pub own: Option<Own>,
+    /// What lies between the surfaces.
+    pub layer: Option<Layer>,
     /// Where points decide or weights are frozen, per node what its own size is to be multiplied by so that it is that of the facets
     /// around it, however many these are.
     pub size_factors: Vec<f64>,
@@ -86,7 +89,18 @@ impl<const N: usize> Setup<N> {
         let wanted = options.decides_at_points() || !moves;
         let size_factors = if wanted { size_factors(&nonmortar, options.space)? } else { Vec::new() };
         let copies = crease::copies(&nonmortar)?;
-        Ok(Setup { options, effects, nonmortar, mortar, multiplier_equations, nodes, own: None, size_factors, copies })
+        Ok(Setup {
+            options,
+            effects,
+            nonmortar,
+            mortar,
+            multiplier_equations,
+            nodes,
+            own: None,
+            layer: None,
+            size_factors,
+            copies,
+        })
     }
 
     /// The non-mortar and the mortar surface.
@@ -100,6 +114,8 @@ impl<const N: usize> Setup<N> {
         self.options.features().and(what::of_surfaces([&self.nonmortar, &self.mortar], self.options.space)).and(
             Features::which(&[
                 (Feature::OwnLaw, self.own.is_some()),
+                (Feature::Layer, self.layer.is_some()),
+                (Feature::LayerSlips, self.layer.as_ref().is_some_and(Layer::slips)),
                 (Feature::Orthotropic, matches!(self.own, Some(Own::Orthotropic(_)))),
                 (Feature::HostNormals, self.nodes.normals.is_some()),
                 (Feature::Offsets, offsets::are_there(self.surfaces())),
@@ -155,6 +171,40 @@ impl<const N: usize> Setup<N> {
     /// Whether the mortar side has rows and columns: its nodes, or the points of its frame.
     pub fn mortar_moves(&self) -> bool {
         self.effects.moves() || self.frame_moves()
+    }
+
+    /// Numbers that the law, and what lies between the surfaces, remember of a node.
+    pub fn states(&self) -> [usize; 2] {
+        [self.own.map_or(0, |own| own.states()), self.layer.as_ref().map_or(0, Layer::states)]
+    }
+
+    /// Where those of the law stand of node A.
+    pub fn law_states(&self, a: usize) -> Range<usize> {
+        let [own, layer] = self.states();
+        let first = (own + layer) * a;
+        first..first + own
+    }
+
+    /// Where those of what lies between the surfaces stand: after them.
+    pub fn layer_states(&self, a: usize) -> Range<usize> {
+        let [own, layer] = self.states();
+        let first = (own + layer) * a + own;
+        first..first + layer
+    }
+
+    /// What nodes remember that remember so many numbers of a law, and of what lies between the surfaces: of either what `known` has
+    /// with these numbers, or zeros.
+    pub fn states_of(&self, known: [Option<&[f64]>; 2], new: [usize; 2]) -> Result<Vec<f64>> {
+        let mut states = memory::with_room(self.nonmortar.len() * (new[0] + new[1]))?;
+        for a in 0..self.nonmortar.len() {
+            for (k, (known, of)) in known.iter().zip([self.law_states(a), self.layer_states(a)]).enumerate() {
+                match known {
+                    Some(known) => states.store_all(known[of].iter().copied())?,
+                    None => states.store_all((0..new[k]).map(|_| 0.0))?,
+                }
+            }
+        }
+        Ok(states)
     }
 
     /// Whether a node has a multiplier at all.

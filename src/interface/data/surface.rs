@@ -47,6 +47,8 @@ pub struct Surface {
     pub idle: Vec<bool>,
     /// Per node by how much it is offset, see `offsets.rs` `[L]`; empty: no node is.
     pub offsets: Vec<f64>,
+    /// How far what lies between the surfaces acts across a gap, and how deep surfaces may overlap in it `[L]`; 0 without.
+    pub layer: [f64; 2],
     /// Per facet the one on the other side of its body, or `NO_FACET`, see `pairing/walls.rs`; empty: no facet has one.
     pub backs: Vec<u32>,
     /// The shape of an analytic surface, whose one facet are the four points of its frame; `None`: real facets.
@@ -173,6 +175,7 @@ impl Surface {
             parents,
             idle: Vec::new(),
             offsets: Vec::new(),
+            layer: [0.0; 2],
             backs: Vec::new(),
             analytic: None,
         };
@@ -225,6 +228,7 @@ impl Surface {
             parents: None,
             idle: Vec::new(),
             offsets: Vec::new(),
+            layer: [0.0; 2],
             backs: Vec::new(),
             analytic: Some(shape),
         };

@@ -12,6 +12,7 @@ use crate::interface::stages::respond::Responses;
 use crate::interface::stages::sums::in_previous_gaps;
 use crate::interface::tangent::augmented::dtraction;
 use crate::interface::tangent::by_equations::Sink;
+use crate::interface::tangent::read::Through;
 use crate::interface::tangent::turning::Turns;
 use crate::interface::weights::facet::each_facet;
 use crate::law::{HeatFlow, HeatNode};
@@ -172,8 +173,8 @@ fn carries<const N: usize>(at: &Place<N>, carried: &[bool]) -> Result<Vec<(usize
 
 /// What the traction of a node depends on.
 struct Traction<const N: usize> {
-    /// Dp = now Dg + previous Dg at t_n, of the gaps of these nodes.
-    gaps: Vec<(usize, Mat3, Mat3)>,
+    /// How p depends on the gaps and the areas of these nodes.
+    gaps: Vec<(usize, Through)>,
     multipliers: Vec<(usize, SMatrix<f64, 3, N>)>,
     /// dp / dnu of these nodes.
     normals: Vec<(usize, Mat3)>,
@@ -219,9 +220,9 @@ impl<const N: usize> Traction<N> {
         turns: Option<&Turns<N>>,
     ) -> Result<()> {
         let (given, response) = (at.given, &at.responses[a]);
-        let (now, previous) = dtraction(given, a, response, normals[a]);
-        let (now, previous) = (share * now, share * previous);
-        self.gaps.store((a, now, previous))?;
+        let Through { now, previous, area } = dtraction(given, a, response, normals[a]);
+        let (now, previous, area) = (share * now, share * previous, share * area);
+        self.gaps.store((a, Through { now, previous, area }))?;
         self.multipliers.store((a, share * response.dp_dlambda))?;
         if let Some(turns) = turns {
             self.normals.store((a, share * turns.projected(a)))?;
@@ -230,7 +231,7 @@ impl<const N: usize> Traction<N> {
         for &(_, of) in carries[first..].iter().take_while(|pair| pair.0 == a) {
             let w = given.carriers_of(of).iter().filter(|carrier| carrier.0 == a).map(|carrier| carrier.1).sum::<f64>();
             let t = transfer(given, of, normals[of], normals[a]) * w;
-            self.gaps.store((of, now * t, previous * t))?;
+            self.gaps.store((of, Through { now: now * t, previous: previous * t, area: area * w }))?;
             if let Some(turns) = turns {
                 let by_gap = if N > 1 && in_previous_gaps(given) { now + previous } else { now };
                 self.normals.store((of, by_gap * turns.taken_over(given, normals, (of, (a, w)))))?;
@@ -300,10 +301,12 @@ fn node<const N: usize>(
     let traction = Traction::of(at, a, normals, carrying, turning.map(|turning| turning.turns))?;
     // Dp acts through the pressure, and through the work of friction.
     let by = |s: &[f64; 5]| response.slip * s[4] - nu * s[1];
-    for (from, by_now, by_previous) in &traction.gaps {
+    for (from, through) in &traction.gaps {
         for column in &rows[*from].columns {
             let (now, before) = gaps(*from, column);
-            let dp = by_now * (now + column.turned) + by_previous * before;
+            let dp = through.now * (now + column.turned)
+                + through.previous * before
+                + through.area * column.area.transpose();
             node.add(column.node, sides(&|s| dp.transpose() * by(s)))?;
         }
     }

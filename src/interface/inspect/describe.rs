@@ -45,6 +45,18 @@ pub fn effects<const N: usize>(setup: &Setup<N>) -> Result<Text> {
         text.append(format_args!(" Normals: {}.", normals_words(setup)))?;
     }
     text.append(format_args!("{}", weak_sentence(setup)?))?;
+    if let Some(layer) = &setup.layer {
+        let parts = [
+            (layer.overclosure.is_some(), " yields by a table"),
+            (layer.wear.is_some(), " wears"),
+            (layer.bond.is_some(), " is bonded"),
+        ];
+        text.append(format_args!(" What lies between the surfaces (asked for):"))?;
+        for (_, what) in parts.iter().filter(|(is_there, _)| *is_there) {
+            text.append(format_args!("{what},"))?;
+        }
+        text.append(format_args!(" {} numbers remembered a node.", layer.states()))?;
+    }
     Ok(text)
 }
 
@@ -89,6 +101,9 @@ fn own_law<const N: usize>(setup: &Setup<N>) -> Result<Text> {
         Some(Own::Cohesion { cohesion }) => say!("Coulomb's law with mu {mu} and the cohesion {cohesion} (asked for)"),
         Some(Own::Weakening { after, slip }) => {
             say!("mu {mu}, which falls to {after} over a slip of {slip} (asked for)")
+        }
+        Some(Own::Rate { after, rate, time }) => {
+            say!("mu {mu}, which falls to {after} over a rate of slip of {rate}, in a step of {time} (asked for)")
         }
         Some(Own::Orthotropic(ellipse)) => say!("orthotropic, mu {mu} along, {} across (asked for)", ellipse.across),
         Some(Own::Host(host)) => say!("a law of the host's, {} numbers remembered a node (asked for)", host.states),

@@ -26,7 +26,7 @@ use crate::interface::pairing::nearest::look;
 use crate::interface::pairing::work::Work;
 use crate::interface::stages::carried::{carriers_sums, multiplier_share};
 use crate::interface::stages::node::{is_left_out, node};
-use crate::interface::stages::own::{At, special};
+use crate::interface::stages::own::{At, layer_answer, special};
 use crate::interface::stages::sums::NodeSums;
 use crate::law::{Measure, NodeResponse, State, Violation};
 use crate::memory;
@@ -142,7 +142,8 @@ pub fn equilibrium<const N: usize>(
 
     let shared =
         if carried.contains(&true) { carriers_sums(given, sums, carried, &given.normals()?)? } else { Vec::new() };
-    let mut states = memory::filled(0.0, given.setup.own.map_or(0, |own| own.states()))?;
+    let [mut states, mut of_layer] =
+        [memory::filled(0.0, given.setup.states()[0])?, memory::filled(0.0, given.setup.states()[1])?];
     for a in nodes() {
         let sum = shared.binary_search_by_key(&a, |(b, _)| *b).map_or(&sums[a], |at| &shared[at].1);
         let h = given.size(a);
@@ -168,6 +169,9 @@ pub fn equilibrium<const N: usize>(
         } else {
             let measure = Measure { traction_rounding: measure.traction_rounding / share, ..measure };
             let mut node = node(given, a, lambda[a], sum)?;
+            if let Some(layer) = &given.setup.layer {
+                node = layer_answer((layer, given), a, (&node, sum), &mut of_layer).inner(&node);
+            }
             if let Some(own) = &given.setup.own {
                 node.special = special((own, given), a, (&node, sum), At::Multiplier, &mut states)?;
             }
@@ -227,7 +231,9 @@ pub fn equilibrium<const N: usize>(
         let least = (PRESSES * traction).max(NOTHING * scales.modulus);
         let presses = |a: usize| {
             let acts = given.setup.has_multiplier(a) && given.setup.nodes.acts(a);
-            acts && lambda[a].norm() * (sums[a].coverage / areas[a]).min(1.0) > least
+            // What a bond bears between surfaces that are apart does not press.
+            let bears = given.setup.layer.is_some() && responses[a].state == State::Gap;
+            acts && !bears && lambda[a].norm() * (sums[a].coverage / areas[a]).min(1.0) > least
         };
         // Weights of the reference do not know where the surfaces are, and persistent ones take overlaps for closed.
         let knows = matches!(options.weights, Weights::Current | Weights::Committed | Weights::Conserving);

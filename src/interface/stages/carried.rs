@@ -97,10 +97,8 @@ pub fn carry<const N: usize>(
     let normals = given.normals()?;
     for (b, sum) in carriers_sums(given, sums, carried, &normals)? {
         let NodeResponse { gap_normal, slip, .. } = responses[b];
-        let mut node = node(given, b, lambda[b], &sum)?;
-        own.ask(given, b, &mut node, &sum)?;
-        responses[b] = NodeResponse { gap_normal, slip, ..(given.setup.effects.law.respond)(&node) };
-        own.settle(given, b, &responses[b]);
+        let node = node(given, b, lambda[b], &sum)?;
+        responses[b] = NodeResponse { gap_normal, slip, ..own.respond(given, b, (node, &sum))? };
     }
     for a in (0..carried.len()).filter(|&a| carried[a]) {
         responses[a] = carried_response(given, a, lambda, responses, &normals);

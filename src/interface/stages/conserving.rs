@@ -1,4 +1,4 @@
-//! What nodes do with conserving weights (docs/formulation.md 20). With the gap g_A(x) = nu_A . g[n, x]_A, its gradient G_A, the mean
+//! What nodes do with conserving weights (docs/formulation.md 21). With the gap g_A(x) = nu_A . g[n, x]_A, its gradient G_A, the mean
 //! places x_m and what moves in the step, u:
 //!
 //! - D_A = G_A(x_m) + q z,   q = (g_A(x') - g_A(x_n) - G_A(x_m) . u) / z . z,   so that D_A . u = g_A(x') - g_A(x_n)

@@ -53,7 +53,9 @@ pub fn count_of<'c, const N: usize>(
         &mut counts.uncovered
     } else if !given.setup.options.friction.law().opens {
         &mut counts.tied
-    } else if !given.setup.effects.law.slips || (given.setup.nodes.mu[a] == 0.0 && given.setup.own.is_none()) {
+    } else if !given.setup.effects.law.slips
+        || (given.setup.nodes.mu[a] == 0.0 && given.setup.own.is_none() && given.setup.layer.is_none())
+    {
         &mut counts.frictionless
     } else if is_new(given, node) {
         &mut counts.new

@@ -1,4 +1,4 @@
-//! A law of one's own at the nodes of an interface (docs/formulation.md 4.8): what it is asked, and what becomes of its answers.
+//! A law of one's own, and what lies between the surfaces, at the nodes of an interface (docs/formulation.md 4.8, 20): what they are asked, and what becomes of their answers.
 //! Asked by the calling thread alone, node after node.
 
 use super::sums::NodeSums;
@@ -7,7 +7,9 @@ use crate::features;
 use crate::geometry::Vec3;
 use crate::interface::data::options::NewContact;
 use crate::interface::pairing::given::Given;
-use crate::law::{Node, NodeResponse, Own, Question, Special, State, Told, trial};
+use crate::law::{
+    Layer, LayerAnswer, LayerQuestion, Node, NodeResponse, Own, Question, Special, State, Told, Turn, trial,
+};
 use crate::memory;
 
 /// At which normal traction a threshold is wanted.
@@ -24,60 +26,107 @@ pub fn is_new<const N: usize>(given: Given<N>, node: &Node<N>) -> bool {
     !node.covered_before && given.setup.options.new_contact == NewContact::Frictionless
 }
 
-/// What the law says of each node at a point; empty without one.
+/// What the law, and what lies between the surfaces, say of each node at a point; empty without them.
 #[derive(Debug, Default)]
 pub struct OwnAnswers {
     /// Of every node.
     specials: Vec<Special>,
-    /// What it remembers of the nodes if the step ends here.
+    layers: Vec<LayerAnswer>,
+    /// What is remembered of the nodes if the step ends here: by the law, then by what lies between the surfaces.
     pub states: Vec<f64>,
 }
 
 impl OwnAnswers {
     /// Begins anew, with what was remembered at t_n.
     pub fn begin<const N: usize>(&mut self, given: Given<N>) -> Result<()> {
-        if given.setup.own.is_none() {
-            self.specials.clear();
-            self.states.clear();
-            return Ok(());
-        }
-        memory::refill(&mut self.specials, Special::Nothing, given.nodes())?;
-        memory::recopy(&mut self.states, &given.history().states)
+        let (own, layer) = (given.setup.own.is_some(), given.setup.layer.is_some());
+        memory::refill(&mut self.specials, Special::Nothing, if own { given.nodes() } else { 0 })?;
+        memory::refill(&mut self.layers, LayerAnswer::default(), if layer { given.nodes() } else { 0 })?;
+        memory::recopy(&mut self.states, if own || layer { &given.history().states } else { &[] })
     }
 
-    /// Asks about node A at its sums, and puts the answer into it.
-    pub fn ask<const N: usize>(
+    /// The answer of law and layer about node A at its sums.
+    pub fn respond<const N: usize>(
         &mut self,
         given: Given<N>,
         a: usize,
-        node: &mut Node<N>,
-        sums: &NodeSums,
-    ) -> Result<()> {
+        (node, sums): (Node<N>, &NodeSums),
+    ) -> Result<NodeResponse<N>> {
+        let law = &given.setup.effects.law;
+        let Some(layer) = &given.setup.layer else {
+            let mut node = node;
+            self.ask(given, a, &mut node, sums)?;
+            let response = (law.respond)(&node);
+            self.settle(given, a, &response);
+            return Ok(response);
+        };
+        let of = given.setup.layer_states(a);
+        let answer = layer_answer((layer, given), a, (&node, sums), &mut self.states[of.clone()]);
+        self.layers[a] = answer;
+        let mut inner = answer.inner(&node);
+        self.ask(given, a, &mut inner, sums)?;
+        let response = (law.respond)(&inner);
+        self.settle(given, a, &response);
+        layer.settle(response.state == State::Slip, &given.history().states[of.clone()], &mut self.states[of]);
+        Ok(answer.outer(&node, response))
+    }
+
+    /// How that answer turns with the normal of node A.
+    pub fn turn<const N: usize>(&self, given: Given<N>, a: usize, mut node: Node<N>) -> Turn<N> {
+        let (law, special) = (&given.setup.effects.law, self.specials.get(a).copied().unwrap_or_default());
+        let Some(answer) = self.layers.get(a) else {
+            node.special = special;
+            return (law.turn)(&node);
+        };
+        answer.turn(law, &node, &Node { special, ..answer.inner(&node) })
+    }
+
+    /// Traction that a bond bears at node A.
+    pub fn bonded(&self, a: usize) -> Vec3 {
+        self.layers.get(a).map_or(Vec3::zeros(), |answer| answer.traction)
+    }
+
+    /// Asks about node A at its sums, and puts the answer into it.
+    fn ask<const N: usize>(&mut self, given: Given<N>, a: usize, node: &mut Node<N>, sums: &NodeSums) -> Result<()> {
         let Some(own) = &given.setup.own else { return Ok(()) };
-        let of = own.states() * a..own.states() * (a + 1);
+        let of = given.setup.law_states(a);
         node.special = special((own, given), a, (node, sums), At::Trial, &mut self.states[of])?;
         self.specials[a] = node.special;
         Ok(())
     }
 
-    /// Puts what was answered about node A into it.
-    pub fn put<const N: usize>(&self, a: usize, node: &mut Node<N>) {
-        node.special = self.specials.get(a).copied().unwrap_or_default();
-    }
-
     /// Takes back what would be remembered of node A where its answer says that nothing has happened there.
-    pub fn settle<const N: usize>(&mut self, given: Given<N>, a: usize, response: &NodeResponse<N>) {
+    fn settle<const N: usize>(&mut self, given: Given<N>, a: usize, response: &NodeResponse<N>) {
         let Some(own) = &given.setup.own else { return };
         if response.state == State::Gap || (own.ages_by_slip() && response.state != State::Slip) {
-            let (from, to) = (own.states() * a, own.states() * (a + 1));
-            self.states[from..to].copy_from_slice(&given.history().states[from..to]);
+            let of = given.setup.law_states(a);
+            self.states[of.clone()].copy_from_slice(&given.history().states[of]);
         }
     }
 
     /// On the heap `[bytes]`.
     pub fn bytes(&self) -> usize {
-        self.specials.capacity() * size_of::<Special>() + self.states.capacity() * size_of::<f64>()
+        self.specials.capacity() * size_of::<Special>()
+            + self.layers.capacity() * size_of::<LayerAnswer>()
+            + self.states.capacity() * size_of::<f64>()
     }
+}
+
+/// What lies between the surfaces at node A; `after`: what would be remembered of it.
+#[inline(never)]
+pub fn layer_answer<const N: usize>(
+    (layer, given): (&Layer, Given<N>),
+    a: usize,
+    (node, sums): (&Node<N>, &NodeSums),
+    after: &mut [f64],
+) -> LayerAnswer {
+    if !node.covered {
+        return LayerAnswer::default();
+    }
+    let history = given.history();
+    let states = &history.states[given.setup.layer_states(a)];
+    let coverage = [sums.coverage, sums.coverage_previous];
+    layer.answer(node, &LayerQuestion { coverage, area: history.areas[a], states }, after)
 }
 
 /// What the law adds to node A; `states`: what it would remember of it.
@@ -114,7 +163,7 @@ pub fn special<const N: usize>(
         slip_before: history.slip.get(a).copied().unwrap_or(Vec3::zeros()),
         direction: trial.direction,
         mu: node.mu,
-        states: &history.states[own.states() * a..own.states() * (a + 1)],
+        states: &history.states[given.setup.law_states(a)],
     };
     let answer = own.answer(&question, states)?;
     Ok(Special::Told(Told { threshold: answer.threshold, slope: answer.slope * area }))

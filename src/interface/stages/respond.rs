@@ -56,16 +56,15 @@ pub fn respond<const N: usize>(
             counts.left_out += 1;
             NodeResponse::uncovered(&lambda[a], given.augmentation(a))
         } else {
-            let mut node = node(given, a, lambda[a], &sums[a])?;
+            let node = node(given, a, lambda[a], &sums[a])?;
             let is_carried = carried.get(a).is_some_and(|c| *c);
             *(if is_carried { &mut counts.carried } else { count_of(given, a, &node, counts) }) += 1;
-            own.ask(given, a, &mut node, &sums[a])?;
-            let mut response = (given.setup.effects.law.respond)(&node);
-            own.settle(given, a, &response);
+            let normal = node.normal;
+            let mut response = own.respond(given, a, (node, &sums[a]))?;
             // What is told is where the surfaces are.
             response.gap_normal += match given.setup.options.conserves() {
                 true => gap_before(given, a)?.min(0.0),
-                false => kept_overlap(given, &node.normal, &sums[a]),
+                false => kept_overlap(given, &normal, &sums[a]),
             };
             response
         })?;

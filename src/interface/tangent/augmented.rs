@@ -2,7 +2,7 @@
 //! projected traction, with its derivative n_AB (dp/dsigma) r Dg_A. Of the multiplier form it is n_AB lambda_N Dnu_A where nodes
 //! have one multiplier and normals follow the motion.
 
-use super::read::{NodeBlock, ReadTable, matrix};
+use super::read::{NodeBlock, ReadTable, Through, matrix};
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::multiplier::direction;
@@ -17,10 +17,14 @@ pub fn is_coupled<const N: usize>(given: Given<N>) -> bool {
     options.form == Form::Augmented || (options.follows_normals() && N == 1)
 }
 
-/// dp/dg_now and dp/dg_previous of a node.
-pub fn dtraction<const N: usize>(given: Given<N>, a: usize, response: &NodeResponse<N>, nu: Vec3) -> (Mat3, Mat3) {
+/// dp/dg_now, dp/dg_previous and dp/dm of a node.
+pub fn dtraction<const N: usize>(given: Given<N>, a: usize, response: &NodeResponse<N>, nu: Vec3) -> Through {
     let direction = direction::<N>(nu) * given.augmentation(a);
-    (direction * response.drow_dnow, direction * response.drow_dprevious)
+    Through {
+        now: direction * response.drow_dnow,
+        previous: direction * response.drow_dprevious,
+        area: direction * response.drow_darea,
+    }
 }
 
 /// One node that a non-mortar node A is coupled with.
@@ -69,15 +73,15 @@ impl NodeCouplings {
         Ok(())
     }
 
-    /// Adds what p_A depends on: the gap of the k-th node of a facet. `dp` = (dp/dg_now, dp/dg_previous); `None`: without numbers.
+    /// Adds what p_A depends on: the gap of the k-th node of a facet. `dp`: how; `None`: without numbers.
     pub fn add_gap(
         &mut self,
         (table, k): (&dyn ReadTable, usize),
-        dp: Option<(Mat3, Mat3)>,
+        dp: Option<Through>,
         row: &mut Vec<NodeBlock>,
     ) -> Result<()> {
-        if let Some((now, previous)) = &dp {
-            table.gap_row(k, [now, previous], row)?;
+        if let Some(through) = &dp {
+            table.gap_row(k, through, row)?;
         }
         let of = |column: usize| dp.map_or(Mat3::zeros(), |_| matrix(&row[column]));
         table.nodes().iter().try_for_each(|&(column, node)| self.add_traction(node, of(column)))

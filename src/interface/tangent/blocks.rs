@@ -47,6 +47,7 @@ pub fn node_tangents<const N: usize>(
             traction: if given.setup.nodes.acts(a) { traction } else { Vec3::zeros() },
             drow_dnow: response.drow_dnow * scale,
             drow_dprevious: response.drow_dprevious * scale,
+            drow_darea: response.drow_darea * scale,
         }
     };
     nodes.clear();

@@ -2,7 +2,7 @@
 
 use super::augmented::{NodeCouplings, dtraction};
 use super::emission::{Emitter, NodeBlock, Place};
-use super::read::{ReadTable, square};
+use super::read::{ReadTable, Through, square, vector};
 use crate::element::NodeTangent;
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
@@ -25,10 +25,11 @@ pub fn rows<const N: usize>(
         for &(b, w) in given.carriers_of(a) {
             let share = carried.filter(|(carried, _)| carried[a]).map(|(_, nodes)| {
                 let t = transfer(given, a, normals[a], normals[b]) * w;
-                [nodes[b].drow_dnow * t, nodes[b].drow_dprevious * t].map(|d| square(&d))
+                let [now, previous] = [nodes[b].drow_dnow * t, nodes[b].drow_dprevious * t].map(|d| square(&d));
+                Through { now, previous, area: vector(&nodes[b].drow_darea) * w }
             });
-            if let Some([now, previous]) = &share {
-                table.gap_row(k, [now, previous], row)?;
+            if let Some(through) = &share {
+                table.gap_row(k, through, row)?;
             }
             for &(column, node) in table.nodes() {
                 let block = share.map_or_else(NodeBlock::default, |_| row[column]);
@@ -66,8 +67,8 @@ pub fn couple<const N: usize>(
     for &(b, w) in given.carriers_of(a) {
         let dp = carried.filter(|(carried, _)| carried[a]).map(|(_, responses)| {
             let t = transfer(given, a, normals[a], normals[b]) * w;
-            let (on_now, on_previous) = dtraction(given, b, &responses[b], normals[b]);
-            (on_now * t, on_previous * t)
+            let Through { now, previous, area } = dtraction(given, b, &responses[b], normals[b]);
+            Through { now: now * t, previous: previous * t, area: area * w }
         });
         couplings[b].add_gap((table, k), dp, row)?;
     }

@@ -1,4 +1,4 @@
-//! The tangent with conserving weights (docs/formulation.md 20), node by node: what a multiplier's forces and its row depend on are all nodes
+//! The tangent with conserving weights (docs/formulation.md 21), node by node: what a multiplier's forces and its row depend on are all nodes
 //! that its gap depends on at the end of the step or half way.
 
 use super::conserving_numbers::ConservingNumbers;
@@ -157,9 +157,8 @@ impl<const N: usize> NodeBlocks<N> {
             return Ok(());
         }
         let by_slip = response.drow_dprevious * scale;
-        let mut asked = node(given, a, *lambda, &numbers.sums[a])?;
-        responses.own.put(a, &mut asked);
-        let by_normal = (given.setup.effects.law.turn)(&asked).drow_dnormal * scale + by_gap * force.above;
+        let asked = node(given, a, *lambda, &numbers.sums[a])?;
+        let by_normal = responses.own.turn(given, a, asked).drow_dnormal * scale + by_gap * force.above;
         for on in &mean.nodes {
             self.add_row(on.node, by_normal * mean.turned(on) * 0.5 + by_slip * on.weight);
         }

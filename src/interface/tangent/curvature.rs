@@ -1,4 +1,4 @@
-//! How the gradients of the gaps change with the places: sum_A lambda_A D^2 g_A, and D^2 g_A . u of what moves (docs/formulation.md 20). What
+//! How the gradients of the gaps change with the places: sum_A lambda_A D^2 g_A, and D^2 g_A . u of what moves (docs/formulation.md 21). What
 //! weights have are differences of their derivatives, facet by facet with normals held; normals have it in closed form, but for those of
 //! corners, which are differences, too.
 

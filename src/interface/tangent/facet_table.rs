@@ -4,7 +4,7 @@
 //! forces. Four nodes of the facet stand in lanes.
 
 use super::dual_facet::DualFacet;
-use super::read::{NodeBlock, ReadTable};
+use super::read::{NodeBlock, ReadTable, Through};
 use super::union::{Pairs, UnionPair};
 use crate::dual::{Columns, FacetColumns, FacetMotion, FacetShare, GROUP};
 use crate::element::{Along, FacetGaps, FacetResponse, Raise, Rows, Slopes, facet_rows, node_row};
@@ -48,8 +48,9 @@ pub struct FacetTable {
     frame: Option<FrameGaps>,
     /// Whether the weights are held fixed.
     fixed: bool,
-    /// D of the covered areas: with dual multipliers.
+    /// D of the covered areas: with dual multipliers, and where rows depend on them.
     areas: Vec<Slopes>,
+    has_layer: bool,
     raise: Option<Raise>,
     offsets: Vec<Slopes>,
     /// Of dual multipliers: n_BC as integrated, D(phi q_B), and rows of the mortar nodes, as [`FacetColumns`] has them.
@@ -95,6 +96,7 @@ impl FacetTable {
             memory::refill(&mut self.forces, Columns::default(), columns)?;
         }
         (self.along, self.blocks, self.frame, self.raise, self.fixed) = (None, None, None, None, true);
+        self.has_layer = false;
         for pair in pairs {
             let slots = self.slots(two.map(|two| &two.facets[pair.two]));
             let lists = [(all.now(pair), &mut self.now), (all.previous(pair), &mut self.previous)];
@@ -197,6 +199,19 @@ impl FacetTable {
         FacetColumns { nodes: *own, weights, tractions, rows: coupled }
     }
 
+    /// Begins with no derivatives of the covered areas, which rows depend on.
+    pub fn begin_areas(&mut self) -> Result<()> {
+        self.has_layer = true;
+        let columns = self.columns();
+        memory::refill(&mut self.areas, [[0.0; MAX_CORNERS]; 3], columns)
+    }
+
+    /// Adds Dm_A of a pair.
+    pub fn add_areas(&mut self, two: Option<&FacetNodes>, of: &AreaDerivatives) {
+        let slots = self.slots(two.filter(|_| !self.mortar.is_empty()));
+        slots.sum(3, self.areas.as_flattened_mut(), of.as_flattened());
+    }
+
     /// Adds Do_A of a pair.
     pub fn add_offsets(&mut self, two: Option<&FacetNodes>, of: &AreaDerivatives) {
         let slots = self.slots(two.filter(|_| !self.mortar.is_empty()));
@@ -236,6 +251,7 @@ impl FacetTable {
             previous: &self.previous,
             raise: self.raise.as_ref(),
             offsets: &self.offsets,
+            areas: if self.has_layer { &self.areas } else { &[] },
         }
     }
 
@@ -290,11 +306,12 @@ impl ReadTable for FacetTable {
         self.now[column][k]
     }
 
-    fn gap_row(&self, k: usize, through: [&Mat3; 2], row: &mut Vec<NodeBlock>) -> Result<()> {
+    fn gap_row(&self, k: usize, through: &Through, row: &mut Vec<NodeBlock>) -> Result<()> {
+        let Through { now, previous, area } = through;
         memory::refill(row, NodeBlock::default(), self.columns())?;
-        node_row(self.gaps(), k, through, row);
+        node_row(self.gaps(), k, ([now, previous], area), row);
         for (d, to) in row[MAX_NODES..].iter_mut().enumerate() {
-            let block = self.frame.map_or_else(Mat3::zeros, |frame| through[0] * frame[k][d]);
+            let block = self.frame.map_or_else(Mat3::zeros, |frame| now * frame[k][d]);
             (0..9).for_each(|ij| to[ij / 3][ij % 3] += block[(ij % 3, ij / 3)]);
         }
         Ok(())

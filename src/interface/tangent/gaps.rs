@@ -1,4 +1,4 @@
-//! The gaps of the nodes as functions of all places, with their derivatives (docs/formulation.md 20): what conserving weights are made of.
+//! The gaps of the nodes as functions of all places, with their derivatives (docs/formulation.md 21): what conserving weights are made of.
 //! Read from the tables that tangents are made of, facet by facet.
 
 use super::derivatives::PairDerivatives;
@@ -6,7 +6,7 @@ use super::emission::{Blocks, Directions, Emitter, MortarBlock, Place, Span, Wei
 use super::facet_table::FacetTable;
 use super::linear_facet::{self, LinearRoom};
 use super::parents::{self, ParentRoom};
-use super::read::{NodeBlock, ReadTable, matrix};
+use super::read::{NodeBlock, ReadTable, Through, matrix};
 use super::task::{Numbers, Task};
 use super::union::{Pairs, UnionPair, Walk};
 use crate::element::{FacetResponse, NodeTangent};
@@ -91,8 +91,9 @@ impl<const N: usize> GapRoom<N> {
             linear_facet::fill(task, (&numbers, pairs), &nodes, (&mut self.table, &mut self.linear), &mut emitter)?;
             &self.table
         };
+        let through = Through { now: Mat3::identity(), ..Through::default() };
         for k in 0..setup.nonmortar.multipliers(f) {
-            table.gap_row(k, [&Mat3::identity(), &Mat3::zeros()], &mut self.row)?;
+            table.gap_row(k, &through, &mut self.row)?;
             for &(column, node) in table.nodes() {
                 take(k, node, table.weight(column, k), matrix(&self.row[column]))?;
             }

@@ -57,6 +57,9 @@ pub fn fill<const N: usize>(
     let of_nodes = one.facets[f].nodes.map(|a| normals[a]);
     let raise = is_offset.then(|| Raise { normals: of_nodes, in_previous: in_previous_gaps(given) });
     table.differentiate(dual.is_some(), numbers.motion.surface.is_none(), raise)?;
+    if given.setup.layer.is_some() {
+        table.begin_areas()?;
+    }
     let linearised = places.len() as i64;
     if dual.is_some() && motion.is_none() {
         return Ok(linearised); // it has faded out
@@ -69,6 +72,9 @@ pub fn fill<const N: usize>(
     match numbers.motion.surface {
         Some(surface) => facet.over_surface((surface, &nodes.traction), at, forces, table)?,
         None => facet.over_facets(nodes, at, forces, (table, emitter)),
+    }
+    if given.setup.layer.is_some() && dual.is_none() {
+        facet.areas(forces, table)?;
     }
     if is_offset {
         facet.offsets(dual.as_ref(), forces, table)?;
@@ -155,6 +161,24 @@ impl Facet<'_> {
                 table.put_blocks(gap, Some(forces));
                 table.put_areas(&areas);
             }
+        }
+        Ok(())
+    }
+
+    /// Derivatives of the covered areas with the standard basis: of the integrals of N_A times 1.
+    fn areas(&self, forces: &mut ForceDerivatives, table: &mut FacetTable) -> Result<()> {
+        let (how, frame, ones) = (self.how, self.overlaps.frame(), [1.0; MAX_CORNERS]);
+        if let Some(surface) = how.surface {
+            analytic_motion(frame, surface, how.rule, &[ones; 3], forces)?;
+            let slopes = forces.one.map(|column| column.map(|of| of[0]));
+            table.add_areas(None, &slopes);
+            return Ok(());
+        }
+        let frame = how.frame(frame);
+        for (pair, segment) in self.active_pairs().zip(&self.overlaps.segments) {
+            let mut slopes = NO_AREAS;
+            offset_motion((&frame, segment, how.rule), (&ones, &[0.0; MAX_CORNERS]), &mut slopes);
+            table.add_areas(Some(&self.sides[1].facets[pair.two]), &slopes);
         }
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! What a facet of the host adds up over its parts before its blocks leave, where either side has quadratic facets: derivatives
 //! over its own nodes and those of its mortar facets (docs/formulation.md 12.5).
 
-use super::read::{NodeBlock, ReadTable, matrix};
+use super::read::{NodeBlock, ReadTable, Through, matrix};
 use super::union::UnionPair;
 use crate::dual::{DualBasis, corner_shares};
 use crate::error::Result;
@@ -127,7 +127,8 @@ impl ReadTable for ParentTable {
         self.now.get(k * self.columns() + column).copied().unwrap_or_default() // none in a pattern
     }
 
-    fn gap_row(&self, a: usize, [now, previous]: [&Mat3; 2], row: &mut Vec<NodeBlock>) -> Result<()> {
+    fn gap_row(&self, a: usize, through: &Through, row: &mut Vec<NodeBlock>) -> Result<()> {
+        let Through { now, previous, area } = through;
         let columns = a * self.columns()..(a + 1) * self.columns();
         let (start, end) = (columns.start, columns.end);
         memory::refill(row, NodeBlock::default(), self.columns())?;
@@ -136,6 +137,11 @@ impl ReadTable for ParentTable {
                 for i in 0..3 {
                     to[j][i] = (0..3).map(|k| now[(i, k)] * gap[j][k]).sum::<f64>() + previous[(i, j)] * n;
                 }
+            }
+        }
+        if *area != Vec3::zeros() {
+            for (to, gap) in row.iter_mut().zip(&self.gaps[start..end]) {
+                (0..9).for_each(|ij| to[ij % 3][ij / 3] += area[ij / 3] * gap[ij % 3][3]);
             }
         }
         let Some(offsets) = self.offsets.get(start..end) else { return Ok(()) };
@@ -310,6 +316,18 @@ impl ParentTable {
             for a in 0..m {
                 let solved: Vec3 = (0..m).map(|b| old[b] * (a_ab[a][b] * basis.coverage.fade)).sum(); // phi m_A m^-1
                 self.offsets[a * columns + column] = (solved + self.faded_area(d, a, column) * eta[a]).into();
+            }
+        }
+    }
+
+    /// Makes of D m_A those of phi m_A, after all else.
+    pub fn fade_areas(&mut self, d: &DualParent) {
+        let (columns, m) = (self.columns(), self.multipliers);
+        for column in 0..columns {
+            let areas: [Vec3; MAX_CORNERS] =
+                std::array::from_fn(|a| if a < m { self.faded_area(d, a, column) } else { Vec3::zeros() });
+            for (a, area) in areas.iter().enumerate().take(m) {
+                (0..3).for_each(|j| self.gaps[a * columns + column][j][3] = area[j]);
             }
         }
     }

@@ -7,7 +7,7 @@ use super::fields::Fields;
 use super::frame::{self, FrameBlocks};
 use super::lines::add_lines;
 use super::parent_table::{DualParent, MortarNode, ParentTable, bit};
-use super::read::{ReadTable, square};
+use super::read::{ReadTable, Through, square, vector};
 use super::task::Task;
 use super::union::UnionPair;
 use crate::element::ParentPair;
@@ -83,6 +83,7 @@ pub fn fill<const N: usize>(task: Task<N>, pairs: &[UnionPair], room: &mut Paren
         moves: task.moves,
         how: numbers.motion,
         in_previous: in_previous_gaps(task.given),
+        has_layer: task.given.setup.layer.is_some(),
     };
     let linearised = at.differentiate((f, pairs), (numbers.active, tractions), room)?;
     if numbers.active.is_some() && frame::is_read(task.given) {
@@ -127,6 +128,8 @@ struct Sides<'a> {
     how: PairDerivatives<'a>,
     /// Whether offsets count in the gaps that slip is measured from.
     in_previous: bool,
+    /// Whether rows depend on covered areas.
+    has_layer: bool,
 }
 
 impl Sides<'_> {
@@ -202,6 +205,9 @@ impl Sides<'_> {
             let mut nu = [Vec3::zeros(); MAX_PARENT_NODES];
             own.iter().zip(&mut nu).for_each(|(&a, nu)| *nu = self.normals[a]);
             table.put_offsets((nu, self.in_previous), dual.as_ref().zip(eta.as_ref()));
+        }
+        if let Some(dual) = dual.as_ref().filter(|_| self.has_layer) {
+            table.fade_areas(dual);
         }
         Ok(linearised)
     }
@@ -438,7 +444,8 @@ fn emit<const N: usize>(
         memory::refill(values, NodeBlock::default(), if numbers.is_some() { all.len() } else { 0 })?;
         if let Some(numbers) = numbers {
             let node = &numbers.nodes[a];
-            table.gap_row(k, [&square(&node.drow_dnow), &square(&node.drow_dprevious)], values)?;
+            let (now, previous) = (square(&node.drow_dnow), square(&node.drow_dprevious));
+            table.gap_row(k, &Through { now, previous, area: vector(&node.drow_darea) }, values)?;
             if let Some(turns) = &numbers.turns {
                 turns.add_row(given, (f, k), values);
             }

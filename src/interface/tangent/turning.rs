@@ -105,9 +105,8 @@ impl<'a, const N: usize> Turns<'a, N> {
             let turn = match is_carried {
                 true => Default::default(),
                 false => {
-                    let mut node = node(given, a, lambda[a], sum)?;
-                    responses.own.put(a, &mut node);
-                    (setup.effects.law.turn)(&node)
+                    let node = node(given, a, lambda[a], sum)?;
+                    responses.own.turn(given, a, node)
                 }
             };
             let traction = match (augmented, N) {

@@ -3,7 +3,7 @@
 use stickslip::interface::compose::{Feature, Features};
 
 /// Each kind of choice with its values, the default first.
-pub const DIMENSIONS: [(&str, &[&str]); 22] = [
+pub const DIMENSIONS: [(&str, &[&str]); 23] = [
     ("facet", &["quad4", "tri3", "tri6", "quad8", "quad9", "mixed", "line2p", "line3p", "line2a", "line3a"]),
     ("basis", &["standard", "dual"]),
     ("space", &["corner", "sub"]),
@@ -12,7 +12,11 @@ pub const DIMENSIONS: [(&str, &[&str]); 22] = [
     ("form", &["multiplier", "augmented"]),
     ("weights", &["current", "committed", "reference", "persistent", "conserving"]),
     ("slip", &["objective", "increment", "paper"]),
-    ("law", &["coulomb", "none", "mu0", "tresca", "tied", "rough", "own", "cohesion", "weakening", "orthotropic"]),
+    (
+        "law",
+        &["coulomb", "none", "mu0", "tresca", "tied", "rough", "own", "cohesion", "weakening", "orthotropic", "rate"],
+    ),
+    ("layer", &["no", "overclosure", "wear", "bond", "all"]),
     ("mortar", &["deformable", "rigid", "plane", "sphere", "cylinder", "mplane", "msphere", "mcylinder"]),
     ("system", &["multipliers", "condensed", "inplace"]),
     ("heat", &["no", "temperatures", "all"]),
@@ -125,7 +129,7 @@ impl Choice {
 
     /// Laws in place of Coulomb's.
     pub fn has_own_law(&self) -> bool {
-        matches!(self.of("law"), "own" | "cohesion" | "weakening" | "orthotropic")
+        matches!(self.of("law"), "own" | "cohesion" | "weakening" | "orthotropic" | "rate")
     }
 
     /// Whether weights are those of now.
@@ -135,6 +139,9 @@ impl Choice {
 
     /// Why nothing can be asked of it; `None`: something can.
     pub fn not_applicable(&self) -> Option<&'static str> {
+        if self.is_smooth() && matches!(self.of("layer"), "wear" | "bond" | "all") {
+            return Some("with one multiplier a node nothing slips, and wear and bonds are refused by that");
+        }
         if self.is_analytic() && self.is("ranks", "sums") {
             return Some("one analytic surface is not dealt out in shares");
         }
@@ -195,6 +202,11 @@ impl Choice {
                 Features::which(&[(Feature::OwnLaw, true), (Feature::Orthotropic, self.is("law", "orthotropic"))]),
             ),
             (
+                Asked::Layer,
+                !self.is("layer", "no"),
+                Features::which(&[(Feature::Layer, true), (Feature::LayerSlips, !self.is("layer", "overclosure"))]),
+            ),
+            (
                 Asked::Offsets,
                 offsets,
                 Features::which(&[(Feature::Offsets, true), (Feature::MortarOffsets, self.is("offsets", "mortar"))]),
@@ -222,7 +234,7 @@ impl Choice {
         call(Asked::Heat, !self.is("heat", "no"), &[Feature::Heat]);
         call(Asked::HeatTangent, motion, &[Feature::Heat]);
         call(Asked::Derivatives, !self.is("derivatives", "no"), &[Feature::Derivatives]);
-        call(Asked::SetCommitted, self.is("restart", "committed"), &[]);
+        call(Asked::SetCommitted, self.is("restart", "committed"), &[Feature::NodeHistory]);
         steps
     }
 }
@@ -232,6 +244,7 @@ impl Choice {
 pub enum Asked {
     Created,
     Law,
+    Layer,
     Offsets,
     Normals,
     Constraints,

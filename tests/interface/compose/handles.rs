@@ -8,7 +8,9 @@ use nalgebra::SVector;
 use stickslip::error::{Error, Result};
 use stickslip::geometry::Vec3;
 use stickslip::interface::{Contact, NodeSums, Owner};
-use stickslip::law::{Answer, Ellipse, Host, NodeResponse, Own, Question, Threshold};
+use stickslip::law::{
+    Answer, Bond, Ellipse, Host, Layer, NodeResponse, Overclosure, Own, Question, Squeeze, Threshold,
+};
 
 /// Offsets of up to a thousandth of a facet: both kinds of states remain.
 const OFFSET: f64 = 5e-4;
@@ -48,15 +50,30 @@ fn own_law(choice: &Choice) -> Option<Own> {
         "own" => Some(Own::Host(Host { ask: own_threshold, words: [1, 2], states: 1, base: 0 })),
         "cohesion" => Some(Own::Cohesion { cohesion: 0.5 }),
         "weakening" => Some(Own::Weakening { after: 0.1, slip: 0.01 }),
+        "rate" => Some(Own::Rate { after: 0.1, rate: 0.05, time: 0.2 }),
         "orthotropic" => Some(Own::Orthotropic(Ellipse { direction: Vec3::new(1.0, 0.3, 0.0), across: 0.15 })),
         _ => None,
     }
+}
+
+/// Of the scene's gaps of a thousandth, pressures of some units and slips of a hundredth, each in the middle of what it has kinks at.
+fn layer(choice: &Choice) -> Option<Layer> {
+    let has = |name: &str| choice.is("layer", name) || choice.is("layer", "all");
+    let points = [(-1e-4, 0.0), (2e-4, 3.0), (5e-4, 20.0)];
+    let table = points.map(|(overclosure, pressure)| Squeeze { overclosure, pressure });
+    let layer = Layer {
+        overclosure: has("overclosure").then(|| Overclosure::new(&table).unwrap()),
+        wear: has("wear").then_some(0.01),
+        bond: has("bond").then_some(Bond { stiffness: 2e3, strength: 3.0, toughness: 0.01, shear: 0.8 }),
+    };
+    (!choice.is("layer", "no")).then_some(layer)
 }
 
 /// Interfaces with three multipliers a node take laws of one's own and coefficients of friction, those with one do not.
 pub trait TakesLaw {
     fn take(&mut self, own: Own) -> Result<()>;
     fn take_friction(&mut self, mu: Vec<f64>) -> Result<()>;
+    fn take_layer(&mut self, layer: Layer) -> Result<()>;
 }
 
 impl TakesLaw for Contact<3> {
@@ -67,6 +84,10 @@ impl TakesLaw for Contact<3> {
     fn take_friction(&mut self, mu: Vec<f64>) -> Result<()> {
         self.set_friction(mu)
     }
+
+    fn take_layer(&mut self, layer: Layer) -> Result<()> {
+        self.set_layer(Some(layer))
+    }
 }
 
 impl TakesLaw for Contact<1> {
@@ -76,6 +97,10 @@ impl TakesLaw for Contact<1> {
 
     fn take_friction(&mut self, _: Vec<f64>) -> Result<()> {
         unreachable!("without friction there is no law")
+    }
+
+    fn take_layer(&mut self, layer: Layer) -> Result<()> {
+        self.set_layer(Some(layer))
     }
 }
 
@@ -229,6 +254,9 @@ where
     let mut contact = when(Asked::Created, Contact::create(one, two, scene.multipliers(), scene.options()))?;
     if let Some(own) = own_law(c) {
         when(Asked::Law, contact.take(own))?;
+    }
+    if let Some(layer) = layer(c) {
+        when(Asked::Layer, contact.take_layer(layer))?;
     }
     if !c.is("derivatives", "no") {
         when(Asked::Created, contact.set_augmentation(Some(vec![AUGMENTATION; n1])))?;

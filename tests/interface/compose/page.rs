@@ -11,7 +11,7 @@ const LABEL: &str = "Not with (UNSUPPORTED):";
 const WIDTH: usize = 125;
 
 /// Where the header says what a feature does not go with: file of src/capi, what the comment stands before.
-const PLACES: [(&str, &str, Feature); 20] = [
+const PLACES: [(&str, &str, Feature); 22] = [
     ("method.rs", "pub const STICKSLIP_BASIS_STANDARD:", Feature::StandardBasis),
     ("method.rs", "pub const STICKSLIP_BASIS_DUAL:", Feature::DualBasis),
     ("space.rs", "pub const STICKSLIP_SPACE_SUB:", Feature::AllNodes),
@@ -28,7 +28,9 @@ const PLACES: [(&str, &str, Feature); 20] = [
     ("options.rs", "pub const STICKSLIP_MORTAR_ANALYTIC:", Feature::Analytic),
     ("law.rs", "pub const STICKSLIP_LAW_ORTHOTROPIC:", Feature::Orthotropic),
     ("law.rs", "pub unsafe extern \"C\" fn stickslip_interface_set_law(", Feature::OwnLaw),
+    ("layer.rs", "pub unsafe extern \"C\" fn stickslip_interface_set_layer(", Feature::Layer),
     ("offsets.rs", "pub unsafe extern \"C\" fn stickslip_interface_set_offsets(", Feature::Offsets),
+    ("interface.rs", "pub unsafe extern \"C\" fn stickslip_interface_set_committed(", Feature::NodeHistory),
     ("condensed.rs", "pub unsafe extern \"C\" fn stickslip_interface_condensed_multipliers(", Feature::Condensed),
     ("condensed.rs", "pub unsafe extern \"C\" fn stickslip_interface_condensed_csr(", Feature::InPlace),
     ("heat.rs", "pub unsafe extern \"C\" fn stickslip_interface_heat(", Feature::Heat),
