@@ -246,8 +246,9 @@
 #define STICKSLIP_FORM_MULTIPLIER 0
 
 /// Forces use the projected traction (the paper's form). Same solutions.
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); condensation; the tangent by sums of several
-/// handles; derivatives by positions of t_n and by parameters.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); conserving weights
+/// (STICKSLIP_WEIGHTS_CONSERVING); condensation; the tangent by sums of several handles; derivatives by positions of t_n and
+/// by parameters.
 #define STICKSLIP_FORM_AUGMENTED 1
 
 /// P(g[n_n,x] - g[n_{n+1},x]): invariant under rigid motion within a step. Default.
@@ -258,7 +259,7 @@
 
 /// P g[n_n,x]: the paper's literal (12); drifts on curved interfaces.
 /// Not with (UNSUPPORTED): persistent weights (STICKSLIP_WEIGHTS_PERSISTENT); points that decide (STICKSLIP_DECISION_POINTS)
-/// and friction; wear or a bond (stickslip_layer).
+/// and friction; conserving weights (STICKSLIP_WEIGHTS_CONSERVING); wear or a bond (stickslip_layer).
 #define STICKSLIP_SLIP_PAPER 2
 
 /// Of now; with STICKSLIP_DECISION_POINTS and friction, or an analytic surface, those of the last commit. Default.
@@ -278,6 +279,17 @@
 /// Not with (UNSUPPORTED): the paper's slip measure (STICKSLIP_SLIP_PAPER); points that decide (STICKSLIP_DECISION_POINTS);
 /// a layer between the surfaces (stickslip_interface_set_layer); offsets; derivatives by positions of t_n and by parameters.
 #define STICKSLIP_WEIGHTS_PERSISTENT 4
+
+/// Weights and normals of now, and gaps that are functions of the places alone. A step closes them up to what the last one has left, and its
+/// forces work exactly what they change by: nothing gains and nothing sinks, whatever slides and turns. For dynamics whose displacements follow
+/// the mean of the velocities. Multipliers and `normal` are along the normals half way between t_n and now (docs/formulation.md 21).
+/// Not with (UNSUPPORTED): the paper's slip measure (STICKSLIP_SLIP_PAPER); points that decide (STICKSLIP_DECISION_POINTS);
+/// the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (method.element_points); nodes that others
+/// carry (weak_coverage > 0, the default of dual multipliers); an analytic mortar side whose frame has equations; normals of
+/// the host; offsets; a layer between the surfaces (stickslip_interface_set_layer); a law of one's own; orthotropic
+/// friction; nodes that handles share (owned has STICKSLIP_NODE_SHARED); condensation; sums of several handles; heat;
+/// derivatives by positions of t_n and by parameters.
+#define STICKSLIP_WEIGHTS_CONSERVING 5
 
 /// Of now, unless weights are frozen or the host gives normals: then of the last commit. Default.
 #define STICKSLIP_NORMALS_AUTO 0
@@ -355,7 +367,8 @@
 /// Over element_points x element_points points on each non-mortar facet, each where it falls on a mortar facet: no
 /// clipping. Functions with kinks at the mortar edges are integrated as if they were smooth: patch tests fail, however
 /// many points there are. The tangent is that of the sums; they jump where a point passes a mortar edge.
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); quadratic facets; lines.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); conserving weights
+/// (STICKSLIP_WEIGHTS_CONSERVING); quadratic facets; lines.
 #define STICKSLIP_INTEGRATION_ELEMENTS 1
 
 /// As ELEMENTS; but as SEGMENTS for all pairs of a non-mortar facet of which a point or a corner was uncovered at the last
@@ -384,10 +397,11 @@
 /// Not with (UNSUPPORTED): tied surfaces (STICKSLIP_FRICTION_TIED); friction and weights of now (STICKSLIP_WEIGHTS_CURRENT);
 /// friction and the paper's slip measure (STICKSLIP_SLIP_PAPER); standard multipliers (STICKSLIP_BASIS_STANDARD); persistent
 /// weights (STICKSLIP_WEIGHTS_PERSISTENT); the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps
-/// (method.element_points); nodes that others carry (weak_coverage > 0, the default of dual multipliers); an analytic mortar
-/// side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid nodes; a law of one's own; a layer between the
-/// surfaces (stickslip_interface_set_layer); parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE); nodes that handles
-/// share (owned has STICKSLIP_NODE_SHARED); condensation; heat; derivatives by positions of t_n and by parameters.
+/// (method.element_points); nodes that others carry (weak_coverage > 0, the default of dual multipliers); conserving weights
+/// (STICKSLIP_WEIGHTS_CONSERVING); an analytic mortar side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid
+/// nodes; a law of one's own; a layer between the surfaces (stickslip_interface_set_layer); parts of an interface (owned has
+/// STICKSLIP_NODE_ELSEWHERE); nodes that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes
+/// (stickslip_interface_set_committed) and friction; condensation; heat; derivatives by positions of t_n and by parameters.
 #define STICKSLIP_DECISION_POINTS 1
 
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
@@ -633,7 +647,8 @@
 
 /// Orthotropic friction: mu along a direction, mu_across across it. Tractions stick within an ellipse, and slip goes at a right angle to
 /// its border.
-/// Not with (UNSUPPORTED): lines; derivatives by positions of t_n and by parameters.
+/// Not with (UNSUPPORTED): lines; conserving weights (STICKSLIP_WEIGHTS_CONSERVING); derivatives by positions of t_n and by
+/// parameters.
 #define STICKSLIP_LAW_ORTHOTROPIC 3
 
 /// Friction that weakens with the velocity v of slip: mu_after + (mu - mu_after) exp(-v / critical_rate), v the slip of the step over `time`:
@@ -1722,11 +1737,12 @@ int32_t stickslip_interface_set_previous(struct stickslip_interface *interface,
 /// and the first gaps of tied nodes are those of the creation. No commit can then be undone.
 ///
 /// slip (3 n1) [L]: what `stickslip_interface_states` had after the commit; NULL: none. Interfaces that remember no slip
-/// (tied, rough, without friction) ignore it. What a law remembers becomes 0; `stickslip_interface_set_law_states` afterwards. So does
-/// what points that decide remember: a step begins with the tractions of the multipliers' field, and a kink within a facet is lost.
+/// (tied, rough, without friction) ignore it. What a law remembers becomes 0; `stickslip_interface_set_law_states` afterwards.
+///
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS) and friction.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (commits < 0,
-/// mortar facets on each other, an analytic surface's frame).
+/// mortar facets on each other, an analytic surface's frame), UNSUPPORTED.
 /// Cost: one search and one integration; allocates.
 int32_t stickslip_interface_set_committed(struct stickslip_interface *interface,
                                           const double *x1,
@@ -2025,7 +2041,7 @@ int32_t stickslip_interface_carriers(struct stickslip_interface *interface,
 /// Not with (UNSUPPORTED): standard multipliers (STICKSLIP_BASIS_STANDARD); points that decide (STICKSLIP_DECISION_POINTS);
 /// the augmented form (STICKSLIP_FORM_AUGMENTED); nodes that handles share (owned has STICKSLIP_NODE_SHARED); parts of an
 /// interface (owned has STICKSLIP_NODE_ELSEWHERE) and quadratic facets; parts of an interface (owned has
-/// STICKSLIP_NODE_ELSEWHERE) and lines.
+/// STICKSLIP_NODE_ELSEWHERE) and lines; conserving weights (STICKSLIP_WEIGHTS_CONSERVING).
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as
 /// `stickslip_interface_sums`); UNSUPPORTED too: a prescribed component (equation -1)
@@ -2717,7 +2733,8 @@ int32_t stickslip_node_equilibrium(const struct stickslip_node *node,
 /// the history: set them again after a restart, before its import. Not of an analytic mortar side, whose shape or place says the
 /// same. On several processes each handle needs those of all of its nodes.
 ///
-/// Not with (UNSUPPORTED): persistent weights (STICKSLIP_WEIGHTS_PERSISTENT).
+/// Not with (UNSUPPORTED): persistent weights (STICKSLIP_WEIGHTS_PERSISTENT); conserving weights
+/// (STICKSLIP_WEIGHTS_CONSERVING).
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, UNSUPPORTED, and where pairs are sought anew those of `stickslip_interface_set_previous`.
 /// Cost: a copy; where the largest offsets change, one search. Allocates.
@@ -2861,8 +2878,8 @@ int32_t stickslip_rigid_destroy(struct stickslip_rigid **rigid);
 /// of which kind they are: set it again after a restart, before the import. A law of the same kind goes on with the states that
 /// there are, and its numbers may change from step to step; another one begins with states 0, and no commit before it can be undone.
 ///
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); derivatives by positions of t_n and by
-/// parameters.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); conserving weights
+/// (STICKSLIP_WEIGHTS_CONSERVING); derivatives by positions of t_n and by parameters.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a number; an interface with another law), UNSUPPORTED (see
 /// above and the kinds).
@@ -2922,8 +2939,8 @@ int32_t stickslip_interface_set_law_states(struct stickslip_interface *interface
 /// undone. Offsets, which are the host's, are there beside it.
 ///
 /// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); persistent weights
-/// (STICKSLIP_WEIGHTS_PERSISTENT); tied surfaces (STICKSLIP_FRICTION_TIED); derivatives by positions of t_n and by
-/// parameters.
+/// (STICKSLIP_WEIGHTS_PERSISTENT); tied surfaces (STICKSLIP_FRICTION_TIED); conserving weights
+/// (STICKSLIP_WEIGHTS_CONSERVING); derivatives by positions of t_n and by parameters.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INVALID_VALUE (a number; wear or a bond without friction, which have no
 /// slip), UNSUPPORTED (see above), and those of a search, where pairs must be sought farther or deeper.
@@ -2942,7 +2959,8 @@ int32_t stickslip_interface_set_layer(struct stickslip_interface *interface,
 /// to the caller's arrays. Of a part of an interface (`owned`) they are what its own nodes give, to be added up like forces. In
 /// plane models they are of the thickness, in axisymmetric ones of the whole ring.
 ///
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS).
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); conserving weights
+/// (STICKSLIP_WEIGHTS_CONSERVING).
 ///
 /// Errors: as `stickslip_interface_residual` without sums; INVALID_VALUE (a member of heat), NOT_FINITE (temperatures; a result that
 /// overflows), UNSUPPORTED.

@@ -89,7 +89,7 @@ pub unsafe extern "C" fn stickslip_interface_carriers(
 /// Not with (UNSUPPORTED): standard multipliers (STICKSLIP_BASIS_STANDARD); points that decide (STICKSLIP_DECISION_POINTS);
 /// the augmented form (STICKSLIP_FORM_AUGMENTED); nodes that handles share (owned has STICKSLIP_NODE_SHARED); parts of an
 /// interface (owned has STICKSLIP_NODE_ELSEWHERE) and quadratic facets; parts of an interface (owned has
-/// STICKSLIP_NODE_ELSEWHERE) and lines.
+/// STICKSLIP_NODE_ELSEWHERE) and lines; conserving weights (STICKSLIP_WEIGHTS_CONSERVING).
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as
 /// `stickslip_interface_sums`); UNSUPPORTED too: a prescribed component (equation -1)

@@ -111,7 +111,8 @@ fn read_heat(p: *const stickslip_heat) -> Result<Conductance> {
 /// to the caller's arrays. Of a part of an interface (`owned`) they are what its own nodes give, to be added up like forces. In
 /// plane models they are of the thickness, in axisymmetric ones of the whole ring.
 ///
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS).
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); conserving weights
+/// (STICKSLIP_WEIGHTS_CONSERVING).
 ///
 /// Errors: as `stickslip_interface_residual` without sums; INVALID_VALUE (a member of heat), NOT_FINITE (temperatures; a result that
 /// overflows), UNSUPPORTED.

@@ -15,8 +15,9 @@ use crate::quadrature::{DEGREE_1, DEGREE_2, DEGREE_4, DEGREE_5, DEGREE_6, DEGREE
 /// Forces use lambda, rows the projection; the tangent is a sum of pairs and nodes. Default.
 pub const STICKSLIP_FORM_MULTIPLIER: i32 = 0;
 /// Forces use the projected traction (the paper's form). Same solutions.
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); condensation; the tangent by sums of several
-/// handles; derivatives by positions of t_n and by parameters.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); conserving weights
+/// (STICKSLIP_WEIGHTS_CONSERVING); condensation; the tangent by sums of several handles; derivatives by positions of t_n and
+/// by parameters.
 pub const STICKSLIP_FORM_AUGMENTED: i32 = 1;
 /// P(g[n_n,x] - g[n_{n+1},x]): invariant under rigid motion within a step. Default.
 pub const STICKSLIP_SLIP_OBJECTIVE: i32 = 0;
@@ -24,7 +25,7 @@ pub const STICKSLIP_SLIP_OBJECTIVE: i32 = 0;
 pub const STICKSLIP_SLIP_INCREMENT: i32 = 1;
 /// P g[n_n,x]: the paper's literal (12); drifts on curved interfaces.
 /// Not with (UNSUPPORTED): persistent weights (STICKSLIP_WEIGHTS_PERSISTENT); points that decide (STICKSLIP_DECISION_POINTS)
-/// and friction; wear or a bond (stickslip_layer).
+/// and friction; conserving weights (STICKSLIP_WEIGHTS_CONSERVING); wear or a bond (stickslip_layer).
 pub const STICKSLIP_SLIP_PAPER: i32 = 2;
 /// Of now; with STICKSLIP_DECISION_POINTS and friction, or an analytic surface, those of the last commit. Default.
 pub const STICKSLIP_WEIGHTS_AUTO: i32 = 0;
@@ -39,6 +40,16 @@ pub const STICKSLIP_WEIGHTS_REFERENCE: i32 = 3;
 /// Not with (UNSUPPORTED): the paper's slip measure (STICKSLIP_SLIP_PAPER); points that decide (STICKSLIP_DECISION_POINTS);
 /// a layer between the surfaces (stickslip_interface_set_layer); offsets; derivatives by positions of t_n and by parameters.
 pub const STICKSLIP_WEIGHTS_PERSISTENT: i32 = 4;
+/// Weights and normals of now, and gaps that are functions of the places alone. A step closes them up to what the last one has left, and its
+/// forces work exactly what they change by: nothing gains and nothing sinks, whatever slides and turns. For dynamics whose displacements follow
+/// the mean of the velocities. Multipliers and `normal` are along the normals half way between t_n and now (docs/formulation.md 21).
+/// Not with (UNSUPPORTED): the paper's slip measure (STICKSLIP_SLIP_PAPER); points that decide (STICKSLIP_DECISION_POINTS);
+/// the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (method.element_points); nodes that others
+/// carry (weak_coverage > 0, the default of dual multipliers); an analytic mortar side whose frame has equations; normals of
+/// the host; offsets; a layer between the surfaces (stickslip_interface_set_layer); a law of one's own; orthotropic
+/// friction; nodes that handles share (owned has STICKSLIP_NODE_SHARED); condensation; sums of several handles; heat;
+/// derivatives by positions of t_n and by parameters.
+pub const STICKSLIP_WEIGHTS_CONSERVING: i32 = 5;
 /// Of now, unless weights are frozen or the host gives normals: then of the last commit. Default.
 pub const STICKSLIP_NORMALS_AUTO: i32 = 0;
 /// Normals nu of the last commit, as in the paper: data of a step. Where surfaces turn or slide on curved ones the forces lag
@@ -97,7 +108,8 @@ pub const STICKSLIP_INTEGRATION_SEGMENTS: i32 = 0;
 /// Over element_points x element_points points on each non-mortar facet, each where it falls on a mortar facet: no
 /// clipping. Functions with kinks at the mortar edges are integrated as if they were smooth: patch tests fail, however
 /// many points there are. The tangent is that of the sums; they jump where a point passes a mortar edge.
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); quadratic facets; lines.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); conserving weights
+/// (STICKSLIP_WEIGHTS_CONSERVING); quadratic facets; lines.
 pub const STICKSLIP_INTEGRATION_ELEMENTS: i32 = 1;
 /// As ELEMENTS; but as SEGMENTS for all pairs of a non-mortar facet of which a point or a corner was uncovered at the last
 /// commit. Patch tests fail.
@@ -120,10 +132,11 @@ pub const STICKSLIP_DECISION_NODES: i32 = 0;
 /// Not with (UNSUPPORTED): tied surfaces (STICKSLIP_FRICTION_TIED); friction and weights of now (STICKSLIP_WEIGHTS_CURRENT);
 /// friction and the paper's slip measure (STICKSLIP_SLIP_PAPER); standard multipliers (STICKSLIP_BASIS_STANDARD); persistent
 /// weights (STICKSLIP_WEIGHTS_PERSISTENT); the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps
-/// (method.element_points); nodes that others carry (weak_coverage > 0, the default of dual multipliers); an analytic mortar
-/// side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid nodes; a law of one's own; a layer between the
-/// surfaces (stickslip_interface_set_layer); parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE); nodes that handles
-/// share (owned has STICKSLIP_NODE_SHARED); condensation; heat; derivatives by positions of t_n and by parameters.
+/// (method.element_points); nodes that others carry (weak_coverage > 0, the default of dual multipliers); conserving weights
+/// (STICKSLIP_WEIGHTS_CONSERVING); an analytic mortar side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid
+/// nodes; a law of one's own; a layer between the surfaces (stickslip_interface_set_layer); parts of an interface (owned has
+/// STICKSLIP_NODE_ELSEWHERE); nodes that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes
+/// (stickslip_interface_set_committed) and friction; condensation; heat; derivatives by positions of t_n and by parameters.
 pub const STICKSLIP_DECISION_POINTS: i32 = 1;
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
 pub const STICKSLIP_ROW_SCALE_FORCE: i32 = 0;
@@ -281,10 +294,11 @@ impl stickslip_method {
     /// What is not AUTO.
     fn wishes(&self, small_displacements: bool) -> Result<Wishes> {
         let bases = [None, Some(MultiplierBasis::Standard), Some(MultiplierBasis::Dual)];
-        let [current, committed, reference, persistent] =
-            [Weights::Current, Weights::Committed, Weights::Reference, Weights::Persistent].map(Some);
-        let all = [None, current, committed, reference, persistent];
-        let mut weights = choose(self.weights, "method.weights", &all, 5)?;
+        let [current, committed, reference, persistent, conserving] =
+            [Weights::Current, Weights::Committed, Weights::Reference, Weights::Persistent, Weights::Conserving]
+                .map(Some);
+        let all = [None, current, committed, reference, persistent, conserving];
+        let mut weights = choose(self.weights, "method.weights", &all, 6)?;
         if small_displacements {
             if weights.is_some() && weights != reference {
                 let text = "options.small_displacements is 1, but method.weights asks for others than STICKSLIP_WEIGHTS_REFERENCE; leave one of them 0";

@@ -4,6 +4,7 @@
 
 use super::compose::Feature;
 use super::data::active::Active;
+use super::data::conserving::Conserving;
 use super::data::extent::{Extent, Scope};
 use super::data::history::History;
 use super::data::node_data::check_length;
@@ -18,10 +19,12 @@ use super::pairing::work::Work;
 use super::stages::acting::acting;
 use super::stages::apart::stays_apart;
 use super::stages::commit;
+use super::stages::conserving;
 use super::stages::normals::follow;
 use super::stages::respond::{Responses, respond};
 use super::stages::shares::refuse_hybrid;
 use super::stages::sums::{self, NodeSums};
+use super::tangent::gaps::{GapRoom, gaps};
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::memory;
@@ -79,13 +82,20 @@ fn asks_for_slip<const N: usize>(setup: &Setup<N>, extent: Extent) -> bool {
 pub struct Cache<const N: usize> {
     kept: Kept,
     answers: Answers<N>,
+    /// With conserving weights: what is known of the step, and where it is found.
+    conserving: Conserving,
+    gaps: GapRoom<N>,
+    /// Whether its pairs half way are of this step.
+    is_half_way: bool,
     /// What searches and integrations work with.
     pub work: Work,
 }
 
 impl<const N: usize> Default for Cache<N> {
     fn default() -> Self {
-        Cache { kept: Kept::default(), answers: Answers::default(), work: Work::default() }
+        let (kept, answers, conserving) = (Kept::default(), Answers::default(), Conserving::default());
+        let (gaps, work) = (GapRoom::default(), Work::default());
+        Cache { kept, answers, conserving, gaps, is_half_way: false, work }
     }
 }
 
@@ -93,6 +103,7 @@ impl<const N: usize> Cache<N> {
     /// Drops what must not outlive what it was found with.
     pub fn forget(&mut self) {
         (self.kept.scope, self.kept.sums_of, self.answers.are_known) = (None, None, false);
+        self.is_half_way = false;
         self.answers.responses.points.is_settled = false;
     }
 
@@ -218,8 +229,54 @@ impl<const N: usize> Cache<N> {
             }
             self.kept.scope = Some(Scope { extent, apart });
         }
+        if setup.options.conserves() {
+            self.integrate_half_way(setup, step, (x1, x2))?;
+        }
         self.count_pairs(&step.history);
         Ok(())
+    }
+
+    /// The same with conserving weights half way between t_n and (x1, x2).
+    fn integrate_half_way(&mut self, setup: &Setup<N>, step: &Step, (x1, x2): (&[Vec3], &[Vec3])) -> Result<()> {
+        let known = &mut self.conserving;
+        if self.kept.scope.is_some_and(|scope| scope.apart) {
+            self.is_half_way = false;
+            return known.clear(x1.len());
+        }
+        let (mut m1, mut m2) = (Vec::new(), Vec::new());
+        conserving::mean_places(&step.history.x1, x1, &mut m1)?;
+        conserving::mean_places(&step.history.x2, x2, &mut m2)?;
+        if self.is_half_way && known.mean.is_at(&m1, &m2) {
+            return Ok(());
+        }
+        self.is_half_way = false;
+        let filter = step.pairing.filter.as_ref().expect("current weights have one");
+        acting(setup.surfaces(), &setup.options, filter, &mut self.work, (&m1, &m2), &mut known.mean)?;
+        self.is_half_way = true;
+        Ok(())
+    }
+
+    /// With conserving weights: the gaps at x and half way, what the nodes do, and in `sums` what the law is asked with. The normals are
+    /// those half way from here on.
+    fn conserve(&mut self, setup: &Setup<N>, step: &mut Step, x: (&[Vec3], &[Vec3])) -> Result<()> {
+        if self.is_apart() {
+            return Ok(());
+        }
+        let known = &mut self.conserving;
+        let mut at = [std::mem::take(&mut known.gaps[0]), std::mem::take(&mut known.gaps[1])];
+        gaps(Given { setup, step }, (&self.kept.active, &self.kept.sums), &mut self.gaps, &mut at[0])?;
+        follow(setup, step, &known.mean.x1)?;
+        let (given, mean) = (Given { setup, step }, (&known.mean.x1[..], &known.mean.x2[..]));
+        sums::sums(given, Some(&known.mean), false, mean, &mut self.answers.sums)?;
+        gaps(given, (&known.mean, &self.answers.sums), &mut self.gaps, &mut at[1])?;
+        known.gaps = at;
+        conserving::settle(given, x, known)?;
+        conserving::sums(known, &mut self.answers.sums)
+    }
+
+    /// What is known of the step where [`Cache::respond`] was called last, with conserving weights.
+    pub fn conserving(&self) -> &Conserving {
+        &self.conserving
     }
 
     /// Stage 1, assembled: every node's gaps and coverage at (x1, x2).
@@ -295,11 +352,18 @@ impl<const N: usize> Cache<N> {
             None => {
                 self.arrive(setup, step, x, extent)?;
                 if self.answers.are_known && !self.answers.shared && self.answers.is_at(x, lambda) {
-                    return Ok(());
+                    return if setup.options.conserves() && !self.is_apart() {
+                        follow(setup, step, &self.conserving.mean.x1)
+                    } else {
+                        Ok(())
+                    };
                 }
                 self.find_sums(Given { setup, step }, x, extent)?;
                 self.answers.are_known = false;
                 memory::recopy(&mut self.answers.sums, &self.kept.sums)?;
+                if setup.options.conserves() {
+                    self.conserve(setup, step, x)?;
+                }
             }
         }
         let scope = self.scope(extent);
@@ -326,6 +390,7 @@ impl<const N: usize> Cache<N> {
             + a.responses.own.bytes()
             + a.responses.points.bytes();
         let answers = given + of_law;
-        kept + answers + bytes::of_work(&self.work)
+        let conserving = bytes::of_active(&self.conserving.mean) + self.conserving.bytes();
+        kept + answers + conserving + bytes::of_work(&self.work)
     }
 }

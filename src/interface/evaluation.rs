@@ -8,6 +8,7 @@ use super::inspect::equilibrium::{self, Equilibrium};
 use super::inspect::largest::Scales;
 use super::inspect::report::{self, Report};
 use super::pairing::given::Given;
+use super::stages::conserving;
 use super::stages::initial;
 use super::stages::normals;
 use super::stages::residual::{self, Residual};
@@ -132,6 +133,12 @@ impl<const N: usize> Contact<N> {
         sums: Option<&[NodeSums]>,
     ) -> Result<&Residual<N>> {
         self.respond(x1, x2, lambda, sums)?;
+        if self.setup.options.conserves() {
+            let (given, answers) = (Given { setup: &self.setup, step: &self.step }, self.cache.answers());
+            let known = self.cache.conserving();
+            conserving::residual(given, known, lambda, &answers.responses.nodes, &mut self.residual)?;
+            return Ok(&self.residual);
+        }
         let (pairs, answers, work) = self.cache.acting(self.setup.surfaces(), &self.step.history);
         let (given, responses) = (Given { setup: &self.setup, step: &self.step }, &answers.responses.nodes);
         if self.setup.decides_at_points() {

@@ -9,15 +9,18 @@ use super::plan::numbering::{Nodes, Numbering, Sides};
 use super::plan::pattern::System;
 use super::plan::table::{Hand, Table, TableRoom};
 use super::plan::whole::Plan;
+use super::stages::conserving::parts;
 use super::stages::node::is_out_of_reach;
 use super::tangent::augmented::NodeCouplings;
 use super::tangent::augmented::is_coupled;
 use super::tangent::blocks::{Room, beyond_facets, node_tangents, of_facets, of_nodes};
+use super::tangent::conserving_numbers::{ConservingNumbers, Curvature, WeightSlopes};
 use super::tangent::derivatives::PairDerivatives;
 use super::tangent::emission::{Emitter, Place};
 use super::tangent::task::{Numbers, Task};
 use super::tangent::turning::{NodeTurn, Turns};
 use super::tangent::union::Pairs;
+use super::weights::facet::each_facet;
 use crate::element::NodeTangent;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
@@ -111,6 +114,13 @@ impl<'a, const N: usize> Here<'a, N> {
             return Pairs::Union([&[], &[]]);
         }
         let history = self.given.history();
+        if self.given.setup.options.conserves() {
+            let mean = &self.cache.conserving().mean;
+            return match self.given.setup.has_parents() {
+                true => Pairs::Parents([self.cache.parents(history), &mean.parents]),
+                false => Pairs::Union([self.cache.pairs(history), &mean.pairs]),
+            };
+        }
         if self.given.setup.has_parents() {
             let previous: &[_] = if self.given.setup.effects.law.slips { &history.parents } else { &[] };
             return Pairs::Parents([self.cache.parents(history), previous]);
@@ -137,6 +147,10 @@ impl<'a, const N: usize> Here<'a, N> {
         let responses = &answers.responses;
         let scale = |a: usize| scales.map_or_else(|| given.row_scale(a), |s| s[a]);
         let surface = mortar.analytic.map(|_| mortar.analytic_at(x2)).transpose()?;
+        let conserving = match options.conserves() && !self.cache.is_apart() {
+            true => Some(self.conserving(normals, lambda)?),
+            false => None,
+        };
         let motion = PairDerivatives { surface: surface.as_ref(), tangent: options.tangent, rule: options.rule };
         node_tangents(given, lambda, responses, normals, scale, work.nodes)?;
         let pairs = self.cache.weighted(given.setup.surfaces(), given.history());
@@ -147,7 +161,11 @@ impl<'a, const N: usize> Here<'a, N> {
             nodes: work.nodes,
             active: self.cache.active().filter(|_| differentiates),
             motion,
-            turns: Turns::at(given, (x1, lambda), (pairs, &answers.sums, responses), normals, &scale, work.turns)?,
+            turns: match conserving {
+                Some(_) => None,
+                None => Turns::at(given, (x1, lambda), (pairs, &answers.sums, responses), normals, &scale, work.turns)?,
+            },
+            conserving: conserving.as_ref(),
         };
         while work.rooms.len() < options.threads {
             work.rooms.store(ThreadRoom::default())?;
@@ -158,13 +176,47 @@ impl<'a, const N: usize> Here<'a, N> {
         Ok((made, start.elapsed().as_secs_f64()))
     }
 
+    /// What blocks of nodes are made of with conserving weights.
+    fn conserving<'b>(self, normals: &[Vec3], lambda: &'b [SVector<f64, N>]) -> Result<ConservingNumbers<'b, N>>
+    where
+        'a: 'b,
+    {
+        let (given, known, answers) = (self.given, self.cache.conserving(), self.cache.answers());
+        let mut along = memory::filled(0.0, lambda.len())?;
+        let mut slopes: Vec<WeightSlopes> = Vec::new();
+        if given.setup.options.differentiates_weights() {
+            for (a, along) in along.iter_mut().enumerate().filter(|(a, _)| given.setup.nodes.acts(*a)) {
+                *along = parts(&lambda[a], known.gaps[1][a].normal).0;
+            }
+        }
+        let curvature = Curvature::of(given, known, &along)?;
+        // Without friction multipliers along the surface are 0 in a solution, and act until then.
+        let along = |a: usize| parts(&lambda[a], known.gaps[1][a].normal).1 != Vec3::zeros();
+        if N > 1 && (given.setup.effects.law.slips || (0..lambda.len()).any(along)) {
+            slopes = memory::defaults(lambda.len())?;
+            each_facet((given, normals), (&known.mean, &answers.responses), &mut |facet| {
+                let n = facet.nodes.len();
+                for a in 0..facet.multipliers {
+                    for (k, c) in (0..n).flat_map(|k| (0..n).map(move |c| (k, c))) {
+                        let slope = facet.slopes[(a * n + k) * n + c];
+                        if slope != Vec3::zeros() {
+                            slopes[facet.nodes[a]].store((facet.nodes[k], facet.nodes[c], slope))?;
+                        }
+                    }
+                }
+                Ok(())
+            })?;
+        }
+        Ok(ConservingNumbers { known, lambda, sums: &answers.sums, curvature, slopes })
+    }
+
     /// The blocks that are not those of facets and pairs: of the tangent, or of forces and of constraints.
     fn extras(self, pairs: Pairs, extent: Extent, is_whole: bool) -> Result<[Vec<(u32, u32)>; 2]> {
         let given = self.given;
         let carries = !given.step.pairing.carriers.is_empty();
         let frame_moves = given.setup.frame_moves();
-        let by_points = given.setup.decides_at_points();
-        if !by_points && !carries && !is_coupled(given) && !given.setup.options.follows_normals() && !frame_moves {
+        let by_nodes = given.setup.has_blocks_of_nodes();
+        if !by_nodes && !carries && !is_coupled(given) && !given.setup.options.follows_normals() && !frame_moves {
             return Ok(Default::default());
         }
         let nodes = Nodes::of(Sides::of(given.setup));
@@ -197,9 +249,9 @@ impl<'a, const N: usize> Here<'a, N> {
         let Some(numbering) = numbering else { return Err(no_plan()) };
         let mut extras = self.extras(pairs, extent, systems[0] == System::Whole)?.into_iter();
         // Carried nodes add to rows of other facets' nodes.
-        let by_points = given.setup.decides_at_points();
-        let alone = given.step.pairing.carriers.is_empty() && !by_points;
-        let is_diagonal = |a: usize| !by_points && is_out_of_reach(given, a, extent);
+        let by_nodes = given.setup.has_blocks_of_nodes();
+        let alone = given.step.pairing.carriers.is_empty() && !by_nodes;
+        let is_diagonal = |a: usize| !by_nodes && is_out_of_reach(given, a, extent);
         let mut plans = [const { None }; S];
         for (plan, system) in plans.iter_mut().zip(systems) {
             let extras = extras.next().unwrap_or_default();

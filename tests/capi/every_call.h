@@ -214,7 +214,7 @@ static inline int32_t every_constraints(every *c) {
 /* How the offset of a carried node turns is not in the tangent, and what surfaces overlap by may not count as closed: refused. */
 static inline int every_offsets_unsupported(const scene *s) {
   const stickslip_method *o = &s->method;
-  if (o->weights == STICKSLIP_WEIGHTS_PERSISTENT) return 1;
+  if (o->weights == STICKSLIP_WEIGHTS_PERSISTENT || o->weights == STICKSLIP_WEIGHTS_CONSERVING) return 1;
   const int carries = o->weak_coverage > 0.0 || (o->weak_coverage == 0.0 && o->multiplier_basis == STICKSLIP_BASIS_DUAL);
   return o->normals == STICKSLIP_NORMALS_CURRENT && s->options.friction != STICKSLIP_FRICTION_NONE && carries;
 }
@@ -463,7 +463,7 @@ static inline int32_t every_condensed_values(every *c) {
 static inline int every_has_derivatives(const every *c) {
   const stickslip_method *o = &c->h.s.method;
   return o->form == STICKSLIP_FORM_MULTIPLIER && o->weights != STICKSLIP_WEIGHTS_COMMITTED &&
-         o->weights != STICKSLIP_WEIGHTS_PERSISTENT && o->decision != STICKSLIP_DECISION_POINTS;
+         o->weights != STICKSLIP_WEIGHTS_PERSISTENT && o->weights != STICKSLIP_WEIGHTS_CONSERVING && o->decision != STICKSLIP_DECISION_POINTS;
 }
 static inline int32_t every_previous_tangent(every *c) {
   const scene *s = &c->h.s;

@@ -9,6 +9,7 @@ mod closing;
 mod commits;
 mod compose;
 mod condensed;
+mod conserving;
 mod corners;
 mod crease;
 mod crosspoints;

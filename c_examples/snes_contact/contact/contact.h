@@ -488,6 +488,7 @@ PetscBool      newly_rubs(const stickslip_options *options);
 PetscErrorCode newly_check(const Contact *contact, char why[], size_t length);
 
 /* slide.c */
+PetscBool      weights_are_of_now(const Interface *interface);
 PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t length);
 PetscErrorCode slide_accept(Contact *contact);
 PetscErrorCode slide_find(const Interface *interface, const Mesh *mesh, double found, int64_t node, Frozen *frozen, PetscReal where[4]);

@@ -175,7 +175,7 @@ static PetscErrorCode begin_options(PetscBool paper, Interface *interface)
 /* `basis`, `normals`, `weights`, `multiplier_space`, `slip`, `form`, `new_contact`, the augmentation and the search. */
 static void read_method(Scene *scene, Interface *interface)
 {
-  static const char *const weights[]      = {"auto", "current", "committed", "reference", "persistent", NULL};
+  static const char *const weights[]      = {"auto", "current", "committed", "reference", "persistent", "conserving", NULL};
   static const char *const slips[]        = {"objective", "increment", "paper", NULL};
   static const char *const forms[]        = {"multiplier", "augmented", NULL};
   static const char *const new_contacts[] = {"frictionless", "friction", NULL};

@@ -129,7 +129,7 @@ PetscErrorCode kept_check(Contact *contact, char why[], size_t length)
     if (sunk->amount > SUNK_MOST)
       PetscCall(PetscSNPrintf(why, length,
                               "converged, but %s: with `weights: persistent` overlaps that a step leaves count as closed in the next, and add up where surfaces "
-                              "slide, however short the steps. Take `weights: current`",
+                              "slide, however short the steps. Take `weights: conserving`",
                               sunk->words));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -145,7 +145,7 @@ PetscErrorCode kept_accept(Contact *contact)
     interface->sunk.told = PETSC_TRUE;
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                            "snes_contact: warning: at t = %.6g %s. With `weights: persistent` overlaps that a step leaves count as closed in the next, and add up "
-                           "where surfaces slide, however short the steps. `weights: current` lets none grow.\n",
+                           "where surfaces slide, however short the steps. `weights: conserving` lets none grow.\n",
                            (double)contact->physics->t, interface->sunk.words));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

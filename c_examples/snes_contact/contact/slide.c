@@ -9,6 +9,12 @@
  * these have turned by theta since, theta / mu of the friction is the pressure's. */
 static const PetscReal FRICTION_OFF = 0.02;
 
+PetscBool weights_are_of_now(const Interface *interface)
+{
+  const int32_t weights = interface->method.weights;
+  return (PetscBool)(weights == STICKSLIP_WEIGHTS_CURRENT || weights == STICKSLIP_WEIGHTS_CONSERVING);
+}
+
 /* Over all ranks, of the last evaluation that was judged: what a part has found, and where[0:3], the node. */
 PetscErrorCode slide_find(const Interface *interface, const Mesh *mesh, double found, int64_t node, Frozen *frozen, PetscReal where[4])
 {
@@ -87,7 +93,7 @@ PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t
       PetscCall(measure_turn(interface, contact->mesh));
       continue;
     }
-    if (interface->method.weights == STICKSLIP_WEIGHTS_CURRENT) continue;
+    if (weights_are_of_now(interface)) continue;
     PetscCall(measure_slide(interface, contact->mesh));
     if (interface->method.weights == STICKSLIP_WEIGHTS_REFERENCE) {
       PetscCall(measure_turn(interface, contact->mesh));

@@ -27,7 +27,7 @@ static const char *remedy(const Interface *interface)
 {
   if (interface->method.weights == STICKSLIP_WEIGHTS_PERSISTENT)
     return "With `weights: persistent` what overlaps at the start of a step counts as closed: take `weights: current`";
-  if (interface->method.weights != STICKSLIP_WEIGHTS_CURRENT)
+  if (!weights_are_of_now(interface))
     return "Frozen weights do not know where the surfaces are: take `weights: current`, or shorter steps";
   if (decision_is_points(interface) || interface->surface[1]->analytic || interface->skin) return "Facets that are coarser than the contact do not feel it: take finer ones";
   return "Facets that are coarser than the contact do not feel it: make the side with the finer facets `nonmortar`, mesh both finer, or take "

@@ -18,6 +18,7 @@ static PetscBool goes_with(const Interface *interface)
 {
   const stickslip_method *method = &interface->method;
   if (decision_is_points(interface) || interface->surface[1]->analytic || interface->options.friction == STICKSLIP_FRICTION_TIED) return PETSC_FALSE;
+  if (method->weights == STICKSLIP_WEIGHTS_CONSERVING) return PETSC_FALSE;
   return (PetscBool)!(interface->offsets.any && method->normals == STICKSLIP_NORMALS_CURRENT);
 }
 

@@ -53,8 +53,7 @@ static const char *cause(const Output *output, int kind)
     return "With `decision: points` it may, whatever the weights: a node's gap is a mean over the facets around it, so that forces are not quite those of "
            "what contact stores (contact_store). Finer facets give less. All of it: contact_gain in energy.csv.";
   return "Overlaps at the start do so, and offsets that grow; else it is weights that are found anew after each step, where surfaces slide or turn. Finer "
-         "facets give less. `weights: persistent` gives none, but lets surfaces sink into each other where they slide far. All of it: contact_gain in "
-         "energy.csv.";
+         "facets give less. `weights: conserving` gives none. All of it: contact_gain in energy.csv.";
 }
 
 static PetscErrorCode tell(const Output *output, int kind, const char *what, PetscReal part)

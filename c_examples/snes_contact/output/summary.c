@@ -32,7 +32,7 @@ static const char *form_name(const Output *output)
 }
 
 /* What weights are called in a scene, by STICKSLIP_WEIGHTS_... */
-static const char *const WEIGHTS[] = {"", "current", "committed", "reference", "persistent"};
+static const char *const WEIGHTS[] = {"", "current", "committed", "reference", "persistent", "conserving"};
 
 /* The interfaces that decide at points, with what goes with them whether the scene has said so or not, and what the library takes their bodies' stiffness for. */
 static PetscErrorCode add_decisions(const Output *output, cJSON *root)
@@ -146,7 +146,7 @@ static PetscErrorCode interface_results(Output *output, Interface *interface, co
   cJSON_AddNumberToObject(json, "lag_force", interface->lag_force);
   if (decision_is_points(interface)) PetscCall(add_closed_area(interface, json));
   if (layer_is_there(interface)) PetscCall(add_layer(interface, json));
-  if (interface->method.weights != STICKSLIP_WEIGHTS_CURRENT) cJSON_AddNumberToObject(json, "slid", interface->slide.amount);
+  if (!weights_are_of_now(interface)) cJSON_AddNumberToObject(json, "slid", interface->slide.amount);
   if (interface->method.weights == STICKSLIP_WEIGHTS_REFERENCE) cJSON_AddNumberToObject(json, "turned", interface->turn.amount);
   if (interface->tied_gap > 0) cJSON_AddNumberToObject(json, "tied_gap", interface->tied_gap);
   if (write) PetscCall(csv_write(output, interface, states, temperatures, step));

@@ -48,6 +48,7 @@ features! {
     WeightsNow "weights of now (STICKSLIP_WEIGHTS_CURRENT)" "take STICKSLIP_WEIGHTS_COMMITTED or STICKSLIP_WEIGHTS_REFERENCE";
     FrozenWeights "frozen weights" "take STICKSLIP_WEIGHTS_CURRENT";
     KeptOverlaps "persistent weights (STICKSLIP_WEIGHTS_PERSISTENT)" "take other weights";
+    Conserving "conserving weights (STICKSLIP_WEIGHTS_CONSERVING)" "take other weights";
     PaperSlip "the paper's slip measure (STICKSLIP_SLIP_PAPER)" "take STICKSLIP_SLIP_OBJECTIVE or STICKSLIP_SLIP_INCREMENT";
     Friction "friction" "take STICKSLIP_FRICTION_NONE";
     Tied "tied surfaces (STICKSLIP_FRICTION_TIED)" "take another law";
@@ -61,6 +62,7 @@ features! {
     FrozenNormals "the tangent with frozen normals (STICKSLIP_TANGENT_FROZEN_NORMALS)" "take the exact tangent";
     Carried "nodes that others carry (weak_coverage > 0, the default of dual multipliers)" "give STICKSLIP_WEAK_COVERAGE_NONE";
     Analytic "an analytic mortar side" "mesh its surface";
+    MovingFrame "an analytic mortar side whose frame has equations" "mesh its surface";
     Offsets "offsets" "";
     MortarOffsets "offsets of the mortar nodes" "give them to the non-mortar nodes";
     Elsewhere "parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE)" "";

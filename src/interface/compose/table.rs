@@ -101,6 +101,11 @@ rows! {
     Meaningless [Points Augmented] "forces of points follow sigma in either form" [Augmented];
     NotBuilt [Points ElementPoints] "" [ElementPoints];
     Meaningless [Points Carried] "no node has to be carried" [Carried];
+    Meaningless [PaperSlip Conserving] "slip is that of the weights half way" [PaperSlip];
+    NotBuilt [Points Conserving] "gaps of points are no functions of the nodes' places alone" [Conserving Points];
+    NotBuilt [Augmented Conserving] "forces follow the multipliers alone" [Augmented];
+    NotBuilt [ElementPoints Conserving] "a gap jumps where a point leaves a facet" [ElementPoints];
+    NotBuilt [Carried Conserving] "who carries whom changes at a commit, and gaps with it" [Carried];
     // Surfaces.
     NotBuilt [ElementPoints Quadratic] "they are integrated over overlaps" [ElementPoints];
     NotBuilt [ElementPoints Lines] "they are integrated over overlaps" [ElementPoints];
@@ -108,7 +113,9 @@ rows! {
     Meaningless [DualBasis AllNodes] "their areas would not be positive" [AllNodes DualBasis];
     NotBuilt [Points Analytic WeightsNow] "what is closed of a facet is not differentiated against a shape" [WeightsNow Points];
     NotBuilt [Points MidNodes] "" [Points MidNodes];
+    NotBuilt [MovingFrame Conserving] "its own work is not counted" [MovingFrame Conserving];
     // What is set.
+    Meaningless [HostNormals Conserving] "gaps would be no functions of the places" [HostNormals Conserving];
     Meaningless [HostNormals NormalsNow] "they would not follow the motion" [NormalsNow HostNormals];
     NotBuilt [OwnLaw Points] "it is asked at nodes" [Points];
     NotBuilt [Layer Points] "it is asked at nodes" [Points];
@@ -118,6 +125,11 @@ rows! {
     Meaningless [Orthotropic Lines] "a plane or axisymmetric model has one direction to slip in" [Orthotropic];
     Meaningless [MortarOffsets Analytic] "it has no nodes; move or resize the shape" [MortarOffsets];
     NotBuilt [Offsets KeptOverlaps] "what they overlap by at the last commit would count as closed, and one that grows would press nothing" [KeptOverlaps];
+    NotBuilt [Offsets Conserving] "" [Conserving];
+    NotBuilt [Layer Conserving] "" [Conserving];
+    NotBuilt [OwnLaw Conserving] "" [Conserving];
+    NotBuilt [Orthotropic Conserving] "" [Conserving];
+    NotBuilt [Shared Conserving] "forces follow the gaps of all handles" [Shared];
     NotBuilt [Points Elsewhere] "tractions of a facet need the gaps of all of its nodes" [Points];
     NotBuilt [Points Shared] "tractions of a facet need the gaps of all of its nodes" [Points];
     NotBuilt [NodeHistory Points Friction] "what points remember is not in it" [NodeHistory];
@@ -128,16 +140,20 @@ rows! {
     Meaningless [Condensed Shared] "one handle must know all facets around a node whose multiplier it eliminates" [Shared];
     NotBuilt [Condensed Elsewhere Quadratic] "several multipliers act on a node in the middle, and one handle must have them all" [Condensed];
     NotBuilt [Condensed Elsewhere Lines] "several multipliers act on a node in the middle, and one handle must have them all" [Condensed];
+    NotBuilt [Condensed Conserving] "forces follow the gaps of all nodes around" [Condensed Conserving];
     Meaningless [InPlace Elsewhere] "a row of it belongs to one handle" [InPlace];
     Meaningless [Sums DualBasis] "a dual basis depends on all pairs of a facet, which are known within one handle only" [DualBasis];
     Meaningless [Sums Carried] "weakly covered nodes are carried within one handle only" [Carried];
+    NotBuilt [Sums Conserving] "forces follow the gaps of all handles" [Conserving];
     Meaningless [SumsTangent Augmented] "it couples pairs of different handles" [Augmented];
     NotBuilt [Heat Points] "pressures are of points" [Points];
+    NotBuilt [Heat Conserving] "it passes with weights of now" [Conserving];
     Meaningless [Derivatives FrozenTangent] "adjoints solve with the exact tangent" [FrozenTangent];
     Meaningless [Derivatives FrozenNormals] "adjoints solve with the exact tangent" [FrozenNormals];
     NotBuilt [Derivatives Augmented] "forces follow the positions of t_n, too" [Augmented];
     NotBuilt [Derivatives WeightsCommitted] "forces follow the positions of t_n, too" [WeightsCommitted];
     NotBuilt [Derivatives KeptOverlaps] "what counts as closed follows the positions of t_n" [KeptOverlaps];
+    NotBuilt [Derivatives Conserving] "forces follow the positions of t_n, too" [Conserving];
     NotBuilt [Derivatives Points] "points remember tractions" [Points];
     NotBuilt [Derivatives OwnLaw] "what it remembers is the host's" [OwnLaw];
     NotBuilt [Derivatives Layer] "what it remembers, and covered areas, follow the positions of t_n" [Layer];

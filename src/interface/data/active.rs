@@ -41,9 +41,14 @@ impl Active {
         memory::recopy(&mut self.x2, x2)
     }
 
-    /// Takes all pairs away.
+    /// Takes all pairs away, and what is known of their facets.
     pub fn clear(&mut self) {
         self.normals.clear();
+        self.clear_pairs();
+    }
+
+    /// Takes all pairs away.
+    pub fn clear_pairs(&mut self) {
         self.pairs.clear();
         self.areas.clear();
         self.integrated.clear();

@@ -35,7 +35,7 @@ impl Keeps {
     pub fn of(options: &Options) -> Keeps {
         let tells_copies = options.tells_copies_apart();
         match (options.friction.law().remembers, options.effective_weights()) {
-            (Remembers::Nothing, Weights::Current) if tells_copies => Keeps::GapAlone,
+            (Remembers::Nothing, Weights::Current) if tells_copies || options.conserves() => Keeps::GapAlone,
             (Remembers::Nothing, Weights::Current) => Keeps::Nothing,
             (Remembers::Nothing, weights) if tells_copies || weights == Weights::Persistent => Keeps::GapAndWeights,
             (Remembers::Nothing, _) => Keeps::Weights,

@@ -17,11 +17,12 @@ pub const LENGTH: usize = 8;
 const BASES: [&str; 3] =
     ["the standard multiplier basis", "the dual multiplier basis", "points that decide (method.decision)"];
 const POINTS: i64 = 2;
-const WEIGHTS: [&str; 4] = [
+const WEIGHTS: [&str; 5] = [
     "weights of now",
     "weights frozen at the last commit",
     "weights of the first configuration",
     "weights frozen at the last commit, whose overlaps count as closed",
+    "weights of now, whose forces are discrete derivatives of the gaps",
 ];
 const SLIPS: [&str; 4] = ["no slip", "the objective slip measure", "the slip increment", "the paper's slip measure"];
 
@@ -29,7 +30,8 @@ const SLIPS: [&str; 4] = ["no slip", "the objective slip measure", "the slip inc
 pub fn of(options: &Options, own: Option<&Own>, (nonmortar, mortar): (&Surface, &Surface)) -> [i64; LENGTH] {
     let law = options.friction.law();
     let weights = match options.effective_weights() {
-        Weights::Current => 0,
+        _ if options.conserves() => 4,
+        Weights::Current | Weights::Conserving => 0,
         Weights::Committed => 1,
         Weights::Reference => 2,
         Weights::Persistent => 3,

@@ -2,6 +2,7 @@
 
 pub mod active;
 pub mod checksum;
+pub mod conserving;
 pub mod counters;
 pub mod crease;
 pub mod crosspoints;

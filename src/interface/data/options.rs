@@ -31,6 +31,8 @@ pub enum Weights {
     Reference,
     /// The same, and what overlaps at t_n counts as closed there: contact does no work to part it (docs/formulation.md 4.9).
     Persistent,
+    /// Of now, and gaps are functions of the places alone: contact takes exactly what they change by (docs/formulation.md 21).
+    Conserving,
 }
 
 /// Which configuration the normals nu belong to.
@@ -284,7 +286,8 @@ impl Options {
 
     /// Those of now, unless the weights are frozen.
     fn best_normals(&self) -> Normals {
-        if self.weights == Weights::Current { Normals::Current } else { Normals::Committed }
+        let follows = matches!(self.weights, Weights::Current | Weights::Conserving);
+        if follows { Normals::Current } else { Normals::Committed }
     }
 
     /// With normals of the host, or without: they take the place of those that the library chose.
@@ -363,6 +366,7 @@ impl Options {
             (Feature::FrozenWeights, !is_now),
             (Feature::WeightsCommitted, self.effective_weights() == Weights::Committed),
             (Feature::KeptOverlaps, self.keeps_overlaps()),
+            (Feature::Conserving, self.conserves()),
             (Feature::PaperSlip, self.slip == SlipMeasure::Paper),
             (Feature::Friction, law.opens && law.multipliers > 1),
             (Feature::Tied, !law.opens),
@@ -376,7 +380,16 @@ impl Options {
 
     /// The weights in force: tied surfaces keep those of the reference configuration.
     pub fn effective_weights(&self) -> Weights {
-        if self.friction.law().opens { self.weights } else { Weights::Reference }
+        match self.weights {
+            _ if !self.friction.law().opens => Weights::Reference,
+            Weights::Conserving => Weights::Current,
+            weights => weights,
+        }
+    }
+
+    /// Whether gaps are functions of the places alone, whose discrete derivatives are the forces.
+    pub fn conserves(&self) -> bool {
+        self.weights == Weights::Conserving && self.friction.law().opens
     }
 
     /// Whether an overlap at t_n counts as closed.
@@ -386,7 +399,7 @@ impl Options {
 
     /// Whether the normals follow the motion within a step. Tied surfaces use none.
     pub fn follows_normals(&self) -> bool {
-        self.normals == Normals::Current && self.friction.law().opens
+        (self.normals == Normals::Current || self.conserves()) && self.friction.law().opens
     }
 
     /// Whether the tangent has the weights' derivatives.
@@ -396,7 +409,7 @@ impl Options {
 
     /// The weak coverage in force; 0: no node is carried.
     pub fn effective_weak_coverage(&self) -> f64 {
-        if self.decides_at_points() {
+        if self.decides_at_points() || self.conserves() {
             return 0.0;
         }
         match (self.weak_coverage, self.basis) {
@@ -415,6 +428,9 @@ impl Options {
     /// The slip measure in force: with frozen weights the objective one measures nothing (both its
     /// terms use the same weights), and the increment is what it stands for.
     pub fn effective_slip(&self) -> SlipMeasure {
+        if self.conserves() {
+            return SlipMeasure::Increment;
+        }
         match (self.effective_weights(), self.slip) {
             (Weights::Committed | Weights::Persistent | Weights::Reference, SlipMeasure::Objective) => {
                 SlipMeasure::Increment

@@ -85,7 +85,8 @@ impl<const N: usize> Setup<N> {
         compose::refuse(options.features().and(of_surfaces))?;
         put_parents([&mut nonmortar, &mut mortar], &multiplier_equations, options.space)?;
         let nodes = NodeData::new(&multiplier_equations, mu)?;
-        let wanted = options.decides_at_points() || options.weights != Weights::Current;
+        let moves = matches!(options.weights, Weights::Current | Weights::Conserving);
+        let wanted = options.decides_at_points() || !moves;
         let size_factors = if wanted { size_factors(&nonmortar, options.space)? } else { Vec::new() };
         let copies = crease::copies(&nonmortar)?;
         Ok(Setup {
@@ -140,6 +141,12 @@ impl<const N: usize> Setup<N> {
     #[inline]
     pub fn decides_at_points(&self) -> bool {
         self.options.decides_at_points()
+    }
+
+    /// Whether all blocks of a tangent are of nodes, none of facets: where points decide, and with conserving weights.
+    #[inline]
+    pub fn has_blocks_of_nodes(&self) -> bool {
+        self.options.decides_at_points() || self.options.conserves()
     }
 
     /// Whether they do with friction: with three multipliers a node, and only there.

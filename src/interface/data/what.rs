@@ -16,6 +16,7 @@ pub fn of_surfaces([one, two]: [&Surface; 2], space: MultiplierSpace) -> Feature
         (Feature::MidNodes, mid1 || mid2),
         (Feature::AllNodes, space == MultiplierSpace::Sub && (has_lines || mid1)),
         (Feature::Analytic, two.analytic.is_some()),
+        (Feature::MovingFrame, frame_moves(two)),
     ])
 }
 

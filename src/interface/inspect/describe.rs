@@ -136,7 +136,10 @@ fn mortar_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
 
 fn weights_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
     let what = match setup.options.effective_weights() {
-        Weights::Current => "of now, differentiated (large sliding)",
+        _ if setup.options.conserves() => {
+            "of now; forces are discrete derivatives of the gaps (asked for): contact gives no energy"
+        }
+        Weights::Current | Weights::Conserving => "of now, differentiated (large sliding)",
         Weights::Committed if setup.options.weights_yield => {
             "frozen at the last commit (chosen: points decide), reused within a step"
         }
@@ -191,9 +194,7 @@ fn apart_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
         (Weights::Current, false) if setup.mortar.analytic.is_some() => "integrated all the same (asked for)",
         (Weights::Current, true) => "only their boxes and normals are compared (chosen)",
         (Weights::Current, false) => "searched all the same (asked for)",
-        (Weights::Committed | Weights::Persistent | Weights::Reference, _) => {
-            "nothing special, for frozen weights need no search"
-        }
+        _ => "nothing special, for frozen weights need no search",
     };
     say!("Surfaces that are apart: {what}.")
 }

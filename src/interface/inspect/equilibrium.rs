@@ -118,7 +118,7 @@ pub fn equilibrium<const N: usize>(
     };
     let none = Largest { value: 0.0, scale: length_scale(least(&|a| given.size(a))), node: None };
     let options = &given.setup.options;
-    let may_slide = options.friction.law().opens && options.weights != Weights::Current;
+    let may_slide = options.friction.law().opens && !matches!(options.weights, Weights::Current | Weights::Conserving);
     let rubs_at_points = given.setup.has_point_friction() && options.weights == Weights::Committed;
     let first_normals = given.setup.acts_along_first_normals();
     let may_turn = first_normals || rubs_at_points;
@@ -236,7 +236,7 @@ pub fn equilibrium<const N: usize>(
             acts && !bears && lambda[a].norm() * (sums[a].coverage / areas[a]).min(1.0) > least
         };
         // Weights of the reference do not know where the surfaces are, and persistent ones take overlaps for closed.
-        let knows = matches!(options.weights, Weights::Current | Weights::Committed);
+        let knows = matches!(options.weights, Weights::Current | Weights::Committed | Weights::Conserving);
         // A node that another handle speaks for presses, too.
         let feels = |a: usize| knows && lambda[a].norm() > least;
         [all.penetration, all.apart] =

@@ -14,7 +14,7 @@ use crate::interface::data::options::Options;
 use crate::interface::data::pairs::PairRecord;
 use crate::interface::data::surface::Surface;
 use crate::memory::{self, Store, Stored};
-use crate::mortar::{SurfacePair, analytic_weights};
+use crate::mortar::{NonmortarFrame, PairWeights, SurfacePair, analytic_weights};
 use std::time::Instant;
 
 /// Per non-mortar facet, whether it faces the surface: opposing normals at its centre, and distances between a
@@ -133,16 +133,7 @@ pub fn integrate(
         counters.pairs_tested += 1;
 
         if faces_now((i, &frame.plane)) && !one.is_idle(i) {
-            let weights = match &one.parents {
-                None => analytic_weights(&frame, &surface, options.rule).map_err(one.at(i))?,
-                Some(parents) => {
-                    let over = |part: SurfacePair, x: &_| part.weights(x);
-                    let share = parents.over_surface(i, (&frame, x1), (&surface, options.rule), over);
-                    let (f, share) = (parents.parent(i), share.map_err(one.at(i))?);
-                    let rows = parents.space.nodes(parents.facets[f].parent, parents.sub(i));
-                    active.add_share((f, 0), rows, &share)?
-                }
-            };
+            let weights = weigh((one, &surface), options, (i, &frame, x1), active)?;
             active.pairs.store(PairRecord { one: i, two: 0, weights })?;
             if let Some(following) = following {
                 following(active, place, (&frame, &[]));
@@ -152,6 +143,23 @@ pub fn integrate(
     counters.pairs_integrated += active.pairs.len() as i64;
     counters.seconds_integration += start.elapsed().as_secs_f64();
     Ok(())
+}
+
+/// The weights of facet i, which has this frame; of a part of a facet of the host with its share of that one's, which `active` gets.
+pub fn weigh(
+    (one, surface): (&Surface, &AnalyticSurface),
+    options: &Options,
+    (i, frame, x1): (usize, &NonmortarFrame, &[Vec3]),
+    active: &mut Active,
+) -> Result<PairWeights> {
+    let Some(parents) = &one.parents else {
+        return analytic_weights(frame, surface, options.rule).map_err(one.at(i));
+    };
+    let over = |part: SurfacePair, x: &_| part.weights(x);
+    let share = parents.over_surface(i, (frame, x1), (surface, options.rule), over);
+    let (f, share) = (parents.parent(i), share.map_err(one.at(i))?);
+    let rows = parents.space.nodes(parents.facets[f].parent, parents.sub(i));
+    active.add_share((f, 0), rows, &share)
 }
 
 /// Whether every node is outside the surface by more than any facet's edge there, in all of the configurations (x1, x2).

@@ -56,7 +56,8 @@ impl Widths {
     /// In plans of this interface.
     pub fn of(setup: Sides) -> Widths {
         // n I: component i in row i alone. Tractions of points are no multiples of multipliers.
-        let is_narrow = setup.options.form == Form::Multiplier && !setup.options.decides_at_points();
+        let is_narrow =
+            setup.options.form == Form::Multiplier && !setup.options.decides_at_points() && !setup.options.conserves();
         let force = if is_narrow { 1 } else { setup.components as u32 };
         Widths { multiplier: setup.components as u32, force }
     }

@@ -176,7 +176,7 @@ impl Stage<'_> {
 
 /// Adds the weights of a pair of parts to those of their parents; gives what is covered of each of its rows.
 #[inline(never)]
-fn of_parts(
+pub fn of_parts(
     (one, two): (&Parents, &Parents),
     (i, j): (usize, usize),
     over: (&NonmortarFrame, &Segment, &'static Rule),

@@ -2,10 +2,12 @@
 //! `facet`, `sums`, `respond`, `residual`) none calls an earlier one; `commit` runs the first three at the new configuration.
 
 pub mod acting;
+pub mod again;
 pub mod apart;
 pub mod away;
 pub mod carried;
 pub mod commit;
+pub mod conserving;
 pub mod facet;
 pub mod initial;
 pub mod integrate;

@@ -11,7 +11,8 @@ use crate::normal::nodal_normal;
 
 /// Puts nu at `x1` in place for the evaluation that follows; nothing where the normals are those of t_n.
 pub fn follow<const N: usize>(setup: &Setup<N>, step: &mut Step, x1: &[Vec3]) -> Result<()> {
-    if !setup.options.follows_normals() || step.normals == Normals::Committed {
+    let committed = step.normals == Normals::Committed && !setup.options.conserves();
+    if !setup.options.follows_normals() || committed {
         step.forget_normals();
         return Ok(());
     }

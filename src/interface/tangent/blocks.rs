@@ -5,6 +5,7 @@
 
 use super::augmented::{NodeCouplings, dtraction, is_coupled};
 use super::carried_tangent;
+use super::conserving;
 use super::emission::{Emitter, MortarBlock, NodeBlock, Span, Takers};
 use super::facet_table::FacetTable;
 use super::frame::{self, FrameNumbers};
@@ -107,7 +108,7 @@ pub fn beyond_facets<const N: usize>(task: Task<N>, room: &mut Room<N>, (taker, 
     let mut emitter = Emitter { given, normals, taker, constraints };
     let mut couplings: Option<Vec<NodeCouplings>> =
         is_coupled(given).then(|| memory::defaults(given.nodes())).transpose()?;
-    if given.setup.has_parents() || given.setup.decides_at_points() {
+    if given.setup.has_parents() || given.setup.has_blocks_of_nodes() {
         of_facets(task, 0..usize::MAX, room, couplings.as_deref_mut(), &mut emitter)?;
     } else {
         let mut walk = Walk::through(all, 0..usize::MAX);
@@ -145,13 +146,23 @@ pub fn of_facets<const N: usize>(
     task: Task<N>,
     facets: Range<usize>,
     room: &mut Room<N>,
+    couplings: Option<&mut [NodeCouplings]>,
+    emitter: &mut Emitter<N>,
+) -> Result<i64> {
+    if task.given.setup.has_blocks_of_nodes() {
+        return Ok(0);
+    }
+    of_pairs(task, facets, room, couplings, emitter)
+}
+
+/// The same, whatever the tangent is made of.
+pub fn of_pairs<const N: usize>(
+    task: Task<N>,
+    facets: Range<usize>,
+    room: &mut Room<N>,
     mut couplings: Option<&mut [NodeCouplings]>,
     emitter: &mut Emitter<N>,
 ) -> Result<i64> {
-    // Where points decide, all blocks are of nodes.
-    if task.given.setup.decides_at_points() {
-        return Ok(0);
-    }
     let (mut linearised, mut walk) = (0, Walk::through(task.pairs, facets));
     if task.given.setup.has_parents() {
         while let Some(f) = walk.next(&mut room.pairs)? {
@@ -229,6 +240,10 @@ pub fn of_nodes<const N: usize>(
     emitter: &mut Emitter<N>,
 ) -> Result<()> {
     let Task { given, pairs, extent, numbers, .. } = task;
+    if given.setup.options.conserves() {
+        let of = numbers.and_then(|n| n.conserving);
+        return conserving::blocks((given, pairs, extent), (task.moves, numbers.map(|n| n.responses)), of, emitter);
+    }
     if given.setup.decides_at_points() {
         let normals = task.normals;
         let turns = numbers.and_then(|n| n.turns.as_ref());

@@ -1,5 +1,6 @@
 //! What a tangent is asked for: of which pairs, and what its numbers are made of.
 
+use super::conserving_numbers::ConservingNumbers;
 use super::derivatives::PairDerivatives;
 use super::turning::Turns;
 use super::union::Pairs;
@@ -28,6 +29,8 @@ pub struct Numbers<'a, const N: usize> {
     pub motion: PairDerivatives<'a>,
     /// How answers turn with the normals of now; `None`: the normals are those of t_n.
     pub turns: Option<Turns<'a, N>>,
+    /// With conserving weights: what the blocks of nodes are made of.
+    pub conserving: Option<&'a ConservingNumbers<'a, N>>,
 }
 
 impl<'a, const N: usize> Numbers<'a, N> {
@@ -38,7 +41,16 @@ impl<'a, const N: usize> Numbers<'a, N> {
         nodes: &'a [NodeTangent<N>],
         motion: PairDerivatives<'a>,
     ) -> Numbers<'a, N> {
-        Numbers { x1: &active.x1, sums: &[], responses, nodes, active: Some(active), motion, turns: None }
+        Numbers {
+            x1: &active.x1,
+            sums: &[],
+            responses,
+            nodes,
+            active: Some(active),
+            motion,
+            turns: None,
+            conserving: None,
+        }
     }
     /// Which nodes are carried, with what the pairs must know of their carriers.
     pub fn carried(&self) -> (&[bool], &[NodeTangent<N>]) {

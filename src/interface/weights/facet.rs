@@ -12,7 +12,7 @@ use crate::interface::data::options::{Options, Tangent};
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::respond::Responses;
-use crate::interface::tangent::blocks::{Room, of_facets};
+use crate::interface::tangent::blocks::{Room, of_pairs};
 use crate::interface::tangent::derivatives::PairDerivatives;
 use crate::interface::tangent::emission::{Blocks, Directions, Emitter, MortarBlock, Place, Span, Weights};
 use crate::interface::tangent::frame::FacetPair;
@@ -149,7 +149,7 @@ pub fn each_facet<const N: usize>(
             let task = Task { given, normals, pairs, extent: Extent::Part, moves: true, numbers: Some(&numbers) };
             let mut taker = Taker { to: &mut weights, sides: [one, two], facet, first, count };
             let mut emitter = Emitter { given, normals, taker: &mut taker, constraints: None };
-            of_facets(task, facet..facet + 1, &mut room, None, &mut emitter)?;
+            of_pairs(task, facet..facet + 1, &mut room, None, &mut emitter)?;
             (0..count).for_each(|i| nodes[own[first + i]].traction = Vec3::zeros());
         }
         take(&weights)?;

@@ -10,7 +10,7 @@ pub const DIMENSIONS: [(&str, &[&str]); 23] = [
     ("normals", &["committed", "current"]),
     ("decision", &["nodes", "points"]),
     ("form", &["multiplier", "augmented"]),
-    ("weights", &["current", "committed", "reference", "persistent"]),
+    ("weights", &["current", "committed", "reference", "persistent", "conserving"]),
     ("slip", &["objective", "increment", "paper"]),
     (
         "law",
@@ -134,7 +134,7 @@ impl Choice {
 
     /// Whether weights are those of now.
     pub fn is_current(&self) -> bool {
-        self.is("weights", "current") && !self.is("law", "tied")
+        matches!(self.of("weights"), "current" | "conserving") && !self.is("law", "tied")
     }
 
     /// Why nothing can be asked of it; `None`: something can.
@@ -161,6 +161,7 @@ impl Choice {
     pub fn created(&self) -> Features {
         let (tied, points) = (self.is("law", "tied"), self.is("decision", "points"));
         let (dual, half) = (self.is("basis", "dual"), self.is("weak", "half"));
+        let conserves = self.is("weights", "conserving");
         let mid = self.is_quadratic() || matches!(self.of("facet"), "line3p" | "line3a");
         Features::which(&[
             (Feature::Lines, self.has_lines()),
@@ -170,11 +171,12 @@ impl Choice {
             (Feature::DualBasis, dual),
             (Feature::AllNodes, self.is("space", "sub") && (mid || self.has_lines())),
             (Feature::Augmented, self.is("form", "augmented")),
-            (Feature::NormalsNow, self.is("normals", "current") && !tied),
+            (Feature::NormalsNow, (self.is("normals", "current") || conserves) && !tied),
             (Feature::WeightsNow, self.is_current()),
             (Feature::FrozenWeights, !self.is_current()),
             (Feature::WeightsCommitted, self.is("weights", "committed") && !tied),
             (Feature::KeptOverlaps, self.is("weights", "persistent") && !tied),
+            (Feature::Conserving, conserves && !tied),
             (Feature::PaperSlip, self.is("slip", "paper")),
             (Feature::Friction, !tied && !self.is("law", "none")),
             (Feature::Tied, tied),
@@ -182,8 +184,9 @@ impl Choice {
             (Feature::ElementPoints, !self.is("integration", "segments")),
             (Feature::FrozenTangent, self.is_current() && self.is("tangent", "frozen_weights")),
             (Feature::FrozenNormals, self.is("tangent", "frozen_normals")),
-            (Feature::Carried, half || (dual && !points && self.is("weak", "default"))),
+            (Feature::Carried, half || (dual && !points && self.is("weak", "default") && (tied || !conserves))),
             (Feature::Analytic, self.is_analytic()),
+            (Feature::MovingFrame, self.frame_moves()),
         ])
     }
 

@@ -166,6 +166,7 @@ impl Scene {
                 "committed" => Weights::Committed,
                 "reference" => Weights::Reference,
                 "persistent" => Weights::Persistent,
+                "conserving" => Weights::Conserving,
                 _ => Weights::Current,
             },
             slip: match c.of("slip") {

@@ -15,7 +15,7 @@ RIGID = 1e-9
 PERSISTENT = {"weights": "persistent"}
 # Of the disc. Persistent weights keep the overlaps that its facets leave as they turn, also in shorter steps; from TOO_FAR radians a step on they may
 # be more than surfaces may sink by. Then the run ends by name, with what helps, and whoever ends well keeps to the bounds.
-STEPS, TOO_FAR, SUNK = 60, 0.1, "the surfaces of base have sunk into each other.*Take `weights: current`"
+STEPS, TOO_FAR, SUNK = 60, 0.1, "the surfaces of base have sunk into each other.*Take `weights: conserving`"
 
 
 def meeting(stiff=1.0, heavy=1.0, step=1.0, **interface):

@@ -1,6 +1,6 @@
 """What moves and must neither sink nor gain: a block that slides on a flat elastic floor under its weight, over more and more facets, with the weights
-that dynamics take by themselves and with persistent ones, which must have been told by name, or have ended the run, where it is wrong in the end; and a
-free block of finite strain that spins by more and more in a step, whose energy and moment of momentum neither rise nor fall."""
+that dynamics take by themselves and with persistent ones, which must have been told by name, or have ended the run, where it is wrong in the end, and with
+conserving ones, which may neither sink nor gain in any step; and a free block of finite strain that spins by more and more in a step, whose energy and moment of momentum neither rise nor fall."""
 
 import numpy as np
 
@@ -12,6 +12,8 @@ DEEPEST = 0.003
 # What the driver tells from on.
 TOLD = 0.01
 SUNK = "have sunk into each other"
+# What no step may give with conserving weights, over all energy: what Newton's method leaves.
+NEVER_UP = 1e-10
 # Of a block that spins, over a thousand turns: Newton's method is asked for rounding, since what it leaves of each step adds up.
 ENERGY_BOUND, MOMENT_BOUND = 1e-11, 1e-12
 TIGHT = ("-snes_rtol", "1e-14")
@@ -59,6 +61,19 @@ def slides(context, facets, **interface):
     return result
 
 
+def conserves(context, facets):
+    whole = context.solve(sliding(facets, weights="conserving"))
+    result = host.outcome(whole)
+    if result.refusal is None:
+        deepest = -min(step["probes"]["corner"][1] for step in whole.steps)
+        table = np.genfromtxt(whole.directory / "energy.csv", delimiter=",", names=True)
+        largest = (table["kinetic"] + table["strain"]).max()
+        given = np.diff(table["kinetic"] + table["strain"] - table["external_work"]).max() / largest
+        result.below("depth", deepest, DEEPEST, "nothing sinks")
+        result.below("energy that a step gives", max(0.0, given), NEVER_UP, "no step gives any")
+    return result
+
+
 def spins(context, turn, steps=25, material="neo_hooke"):
     """A free block, `turn` radians in each step."""
     whole = context.solve({
@@ -84,6 +99,7 @@ def cells():
     yield from series("dynamics: slides over facets", FACETS, lambda n: lambda c: slides(c, n), quick=(10,))
     yield from series("dynamics, persistent weights: slides over facets", FACETS, lambda n: lambda c: slides(c, n, weights="persistent"), quick=(10,),
                       may_refuse=SUNK)
+    yield from series("dynamics, conserving weights: slides over facets", FACETS, lambda n: lambda c: conserves(c, n), quick=(10,))
     yield from series("dynamics: finite strain spins, radians a step", TURNS, lambda t: lambda c: spins(c, t), quick=(0.3,))
     for material in ("st_venant_kirchhoff", "neo_hooke"):
         yield from series(f"dynamics: {material} spins, whole turns", WHOLE, lambda n, m=material: lambda c: spins(c, 0.72, int(np.ceil(n * 2 * np.pi / 0.72)), m))
