@@ -92,6 +92,7 @@ impl Pair {
                 traction: node.lambda,
                 drow_dnow: response.drow_dnow,
                 drow_dprevious: response.drow_dprevious,
+                drow_darea: response.drow_darea,
             };
         }
         let force = pair_force(&w, &tractions);

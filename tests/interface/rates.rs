@@ -80,9 +80,9 @@ fn a_mass_on_a_spring_sticks_and_slips() {
         if first.is_none() && u > BEGUN {
             first = Some(step);
         }
-        if first.is_some() && ended.is_none() {
+        if let (Some(first), None) = (first, ended) {
             slipped = u;
-            if step > first.unwrap() + 20 && v <= 0.0 {
+            if step > first + 20 && v <= 0.0 {
                 ended = Some(step);
             }
         }
@@ -90,6 +90,6 @@ fn a_mass_on_a_spring_sticks_and_slips() {
     let expected = 2.0 * (REST - FAST) * PRESSURE / stiffness;
     assert!((slipped / expected - 1.0).abs() <= PART, "{slipped} {expected}");
     let half = (ended.unwrap() - first.unwrap()) as f64 * time;
-    let period = std::f64::consts::PI * (mass / stiffness as f64).sqrt();
+    let period = std::f64::consts::PI * (mass / stiffness).sqrt();
     assert!((half / period - 1.0).abs() <= 2.0 * PART, "{half} {period}");
 }
