@@ -43,7 +43,7 @@ set(remapped "build.rustflags=['--remap-path-prefix=${cargo_home}=/cargo', '--re
 #   of the compiler's measure. What stands between two blocks of a tangent would be slower so: it is marked `#[inline(always)]`.
 # - Loops whose length is known at run time alone are neither unrolled nor turned into lanes: outside of kernels they are short.
 set(small_library
-  -C llvm-args=-inline-threshold=60 -C llvm-args=-inlinehint-threshold=200 -C llvm-args=-locally-hot-callsite-threshold=200
+  -C llvm-args=-inline-threshold=30 -C llvm-args=-inlinehint-threshold=120 -C llvm-args=-locally-hot-callsite-threshold=100
   -C llvm-args=-unroll-runtime=false -C no-vectorize-loops)
 # Functions with the same code, as interfaces of one and of three multipliers a node often have, are kept once where the linker of rustc
 # can do so (lld, gold, mold).

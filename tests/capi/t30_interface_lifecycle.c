@@ -28,7 +28,8 @@ int main(void) {
   scene_create(&s);
   double lambda[X1], normal[X1], area[N1], gap[N1], coverage[N1], augmentation[N1], slip[X1], traction[X1], dissipation[N1];
   int32_t state[N1];
-  stickslip_states out = {sizeof out, state, normal, traction, gap, slip, coverage, area, dissipation, augmentation, NULL};
+  stickslip_states out = {.struct_size = sizeof out, .state = state, .normal = normal, .traction = traction, .gap = gap, .slip = slip,
+                          .coverage = coverage, .area = area, .dissipation = dissipation, .augmentation = augmentation};
   CHECK_OK(stickslip_interface_initial_multipliers(s.interface, lambda));
   CHECK_OK(stickslip_interface_states(s.interface, s.reference1, s.reference2, lambda, NULL, &out));
   double total = 0.0, up[3] = {0.0, 0.0, 1.0};
