@@ -15,6 +15,8 @@ use stickslip::line::Measure;
 const DIFFERENCES: f64 = 1e-7;
 /// Sums of some dozen products, over the largest.
 const ROUNDING: f64 = 1e-13;
+/// How far surfaces are pushed into each other: beyond the gaps of the scenes, a part of a facet.
+const PUSHED: f64 = 0.05;
 const MEASURE: Measure = Measure::Thickness(0.45);
 const BASES: [MultiplierBasis; 2] = [MultiplierBasis::Standard, MultiplierBasis::Dual];
 
@@ -184,7 +186,7 @@ fn the_tangent_of_quadratic_facets_is_the_derivative() {
 fn the_bound_is_where_the_last_step_has_ended() {
     for mut s in facets_of::<1>(Friction::None) {
         let (nu, x2) = (s.contact.normal(4).unwrap(), s.x2.clone());
-        let x1: Vec<_> = s.x1.iter().map(|x| x - nu * 0.01).collect();
+        let x1: Vec<_> = s.x1.iter().map(|x| x - nu * PUSHED).collect();
         let reached = s.gaps(&x1, &x2);
         assert!(reached.iter().any(|g| *g < 0.0), "{}: nothing overlaps", s.name);
         s.contact.commit(&x1, &x2, &s.lambda, None).unwrap();
