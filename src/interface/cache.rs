@@ -27,7 +27,7 @@ use super::stages::sums::{self, NodeSums};
 use super::tangent::gaps::{GapRoom, gaps};
 use crate::error::Result;
 use crate::geometry::Vec3;
-use crate::memory;
+use crate::memory::{self, Store};
 use nalgebra::SVector;
 
 /// The pairs at the last positions, of weights of now.
@@ -82,9 +82,9 @@ fn asks_for_slip<const N: usize>(setup: &Setup<N>, extent: Extent) -> bool {
 pub struct Cache<const N: usize> {
     kept: Kept,
     answers: Answers<N>,
-    /// With conserving weights: what is known of the step, and where it is found.
+    /// With conserving weights: what is known of the step, and where it is found. That is large: there is none before it is needed.
     conserving: Conserving,
-    gaps: GapRoom<N>,
+    gaps: Vec<GapRoom<N>>,
     /// Whether its pairs half way are of this step.
     is_half_way: bool,
     /// What searches and integrations work with.
@@ -94,7 +94,7 @@ pub struct Cache<const N: usize> {
 impl<const N: usize> Default for Cache<N> {
     fn default() -> Self {
         let (kept, answers, conserving) = (Kept::default(), Answers::default(), Conserving::default());
-        let (gaps, work) = (GapRoom::default(), Work::default());
+        let (gaps, work) = (Vec::new(), Work::default());
         Cache { kept, answers, conserving, gaps, is_half_way: false, work }
     }
 }
@@ -262,13 +262,16 @@ impl<const N: usize> Cache<N> {
         if self.is_apart() {
             return Ok(());
         }
-        let known = &mut self.conserving;
+        if self.gaps.is_empty() {
+            self.gaps.store(GapRoom::default())?;
+        }
+        let (known, room) = (&mut self.conserving, &mut self.gaps[0]);
         let mut at = [std::mem::take(&mut known.gaps[0]), std::mem::take(&mut known.gaps[1])];
-        gaps(Given { setup, step }, (&self.kept.active, &self.kept.sums), &mut self.gaps, &mut at[0])?;
+        gaps(Given { setup, step }, (&self.kept.active, &self.kept.sums), room, &mut at[0])?;
         follow(setup, step, &known.mean.x1)?;
         let (given, mean) = (Given { setup, step }, (&known.mean.x1[..], &known.mean.x2[..]));
         sums::sums(given, Some(&known.mean), false, mean, &mut self.answers.sums)?;
-        gaps(given, (&known.mean, &self.answers.sums), &mut self.gaps, &mut at[1])?;
+        gaps(given, (&known.mean, &self.answers.sums), room, &mut at[1])?;
         known.gaps = at;
         conserving::settle(given, x, known)?;
         conserving::sums(known, &mut self.answers.sums)

@@ -243,7 +243,11 @@ static inline int32_t every_shape_offsets(every *c) {
 /* Laws in place of Coulomb's, where the interface has that; its numbers are powers of two. */
 static inline int every_has_law(const every *c) { return c->h.s.options.friction == STICKSLIP_FRICTION_COULOMB; }
 /* Tied surfaces do not give way. */
-static inline int every_goes_with_layers(const every *c) { return c->h.s.options.friction != STICKSLIP_FRICTION_TIED; }
+static inline int every_goes_with_layers(const every *c) {
+  const int32_t weights = c->h.s.method.weights;
+  return c->h.s.options.friction != STICKSLIP_FRICTION_TIED && weights != STICKSLIP_WEIGHTS_PERSISTENT && weights != STICKSLIP_WEIGHTS_CONSERVING &&
+         c->h.s.method.decision != STICKSLIP_DECISION_POINTS;
+}
 static inline int32_t every_law(every *c) {
   const stickslip_law law = {.struct_size = sizeof law, .kind = STICKSLIP_LAW_WEAKENING, .mu_after = 0.25, .critical_slip = 0x1p-7};
   return every_has_law(c) ? stickslip_interface_set_law(c->h.s.interface, &law) : STICKSLIP_OK;

@@ -70,7 +70,7 @@ int main(void) {
   }
   CHECK(cut > 0);
 
-  create(&one, STICKSLIP_WEIGHTS_CURRENT);
+  create(&one, STICKSLIP_WEIGHTS_REFERENCE);
   one.method.normals = STICKSLIP_NORMALS_CURRENT;
   CHECK_REFUSED(stickslip_interface_create(&one.nonmortar, &one.mortar, &one.options, &one.interface), STICKSLIP_UNSUPPORTED,
                 "normals of now");
