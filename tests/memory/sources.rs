@@ -56,6 +56,12 @@ const HARMLESS: [(&str, &str, &str); 8] = [
 /// Folders and files whose stacks have a fixed size, and which know no vectors at all.
 const WITHOUT_VECTORS: [&str; 9] =
     ["dual", "element", "geometry", "law", "mortar", "normal.rs", "quadrature", "shape", "simd"];
+/// But for tables of a host, which are kept as they were given.
+const TABLES: [&str; 1] = ["law/overclosure.rs"];
+
+fn takes_no_memory(file: &str) -> bool {
+    !TABLES.contains(&file) && WITHOUT_VECTORS.iter().any(|f| file.starts_with(f))
+}
 
 /// The lines of code of every file, tests and comments apart: (file below src, number, line).
 fn code() -> Vec<(String, usize, String)> {
@@ -79,7 +85,7 @@ fn code() -> Vec<(String, usize, String)> {
 fn every_vector_that_grows_may_be_refused() {
     let mut wrong = Vec::new();
     for (file, number, line) in code() {
-        if file == "memory.rs" || file == "error.rs" || WITHOUT_VECTORS.iter().any(|f| file.starts_with(f)) {
+        if file == "memory.rs" || file == "error.rs" || takes_no_memory(&file) {
             continue;
         }
         let harmless = HARMLESS.iter().any(|(f, part, _)| *f == file && line.contains(part));
@@ -122,7 +128,7 @@ fn every_function_of_the_abi_is_among_those_that_are_tried() {
 #[test]
 fn the_mathematics_below_the_interface_takes_no_memory() {
     for (file, number, line) in code() {
-        if WITHOUT_VECTORS.iter().any(|f| file.starts_with(f)) {
+        if takes_no_memory(&file) {
             let word = ["Vec<", "Vec::", "vec!", "String", "Box", "collect()"].into_iter().find(|w| line.contains(w));
             assert!(word.is_none(), "src/{file}:{number}: `{}` in `{}`", word.unwrap(), line.trim());
         }

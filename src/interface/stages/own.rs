@@ -61,13 +61,13 @@ impl OwnAnswers {
             return Ok(response);
         };
         let of = given.setup.layer_states(a);
-        let answer = layer_answer((layer, given), a, (&node, sums), &mut self.states[of.clone()]);
+        let answer = layer_answer((layer, given), a, (&node, sums), &mut self.states[of.start..of.end]);
         self.layers[a] = answer;
         let mut inner = answer.inner(&node);
         self.ask(given, a, &mut inner, sums)?;
         let response = (law.respond)(&inner);
         self.settle(given, a, &response);
-        layer.settle(response.state == State::Slip, &given.history().states[of.clone()], &mut self.states[of]);
+        layer.settle(response.state == State::Slip, &given.history().states[of.start..of.end], &mut self.states[of]);
         Ok(answer.outer(&node, response))
     }
 
@@ -100,7 +100,7 @@ impl OwnAnswers {
         let Some(own) = &given.setup.own else { return };
         if response.state == State::Gap || (own.ages_by_slip() && response.state != State::Slip) {
             let of = given.setup.law_states(a);
-            self.states[of.clone()].copy_from_slice(&given.history().states[of]);
+            self.states[of.start..of.end].copy_from_slice(&given.history().states[of]);
         }
     }
 
