@@ -300,7 +300,6 @@ REFUSALS = {
     "tied": ({"law": "tied"}, "tied"),
     "augmented": ({"form": "augmented"}, "augmented"),
     "elements": ({"integration": "elements"}, "overlaps"),
-    "current normals": ({"weights": "current", "normals": "current"}, "normals of now"),
     "standard basis": ({"basis": "standard"}, "standard multipliers"),
 }
 
