@@ -22,6 +22,14 @@ pub struct Question<'a> {
     pub states: &'a [f64],
 }
 
+impl Question<'_> {
+    /// Along which |slip| grows: where nothing has slipped yet, where the node would slip to.
+    pub fn along(&self) -> Vec3 {
+        let step = self.slip.norm();
+        if step > 0.0 { self.slip / step } else { self.direction }
+    }
+}
+
 /// A threshold, with derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {

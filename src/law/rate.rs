@@ -10,9 +10,7 @@ use crate::geometry::Vec3;
 pub fn answer((after, critical): (f64, f64), question: &Question) -> Answer {
     let step = question.slip.norm();
     let left = (question.mu - after) * (-step / critical).exp();
-    // Where nothing has slipped yet, |slip| grows along where the node would slip to.
-    let along = if step > 0.0 { question.slip / step } else { question.direction };
-    let slope: Vec3 = along * (question.normal * left / critical);
+    let slope: Vec3 = question.along() * (question.normal * left / critical);
     Answer { threshold: Threshold::cone(after + left, question.normal), slope }
 }
 

@@ -14,9 +14,8 @@ pub fn answer((after, critical): (f64, f64), question: &Question, states: &mut [
     states[0] = way;
     let (left, falls) = (1.0 - way / critical, way < critical);
     let mu = after + (question.mu - after) * if falls { left } else { 0.0 };
-    // Where nothing has slipped yet, |slip| grows along where the node would slip to.
-    let along = if step > 0.0 { question.slip / step } else { question.direction };
-    let slope = if falls { along * (question.normal * (question.mu - after) / critical) } else { Vec3::zeros() };
+    let slope =
+        if falls { question.along() * (question.normal * (question.mu - after) / critical) } else { Vec3::zeros() };
     Answer { threshold: Threshold::cone(mu, question.normal), slope }
 }
 

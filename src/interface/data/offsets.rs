@@ -6,6 +6,7 @@ use super::node_data::check_length;
 use super::surface::Surface;
 use crate::error::{Error, Kind, Result};
 use crate::features;
+use crate::shape::MAX_CORNERS;
 
 /// Checks the offsets of a surface; empty where all are 0: then there is no such effect.
 pub fn checked(surface: &Surface, offsets: Option<Vec<f64>>) -> Result<Vec<f64>> {
@@ -48,5 +49,10 @@ impl Surface {
     /// The offset of a node.
     pub fn offset(&self, a: usize) -> f64 {
         self.offsets.get(a).copied().unwrap_or(0.0)
+    }
+
+    /// Those of these nodes; 0 of the fourth one that a triangle does not have.
+    pub fn offsets_of(&self, nodes: &[usize]) -> [f64; MAX_CORNERS] {
+        std::array::from_fn(|k| nodes.get(k).map_or(0.0, |&a| self.offset(a)))
     }
 }

@@ -2,7 +2,7 @@
 //! beside them cover next to nothing.
 
 use super::facet::{dual_parents, facet};
-use super::integrate::of_parts;
+use super::integrate::pair_weights;
 use crate::error::Result;
 use crate::interface::data::active::Active;
 use crate::interface::data::options::{MultiplierBasis, Options};
@@ -13,7 +13,7 @@ use crate::interface::pairing::candidates::by_points;
 use crate::interface::pairing::filter::Filter;
 use crate::interface::pairing::overlaps::overlap;
 use crate::memory::Store;
-use crate::mortar::{PairWeights, Segment};
+use crate::mortar::Segment;
 
 /// Puts these pairs, of facets of one facet of the host, at the places of `active` in place of all pairs that it has; `segments`: room.
 pub fn again(
@@ -28,6 +28,7 @@ pub fn again(
     let (x1, x2, normals) =
         (std::mem::take(&mut active.x1), std::mem::take(&mut active.x2), std::mem::take(&mut active.normals));
     let (one, two) = surfaces;
+    let parents = one.parents.as_ref().zip(two.parents.as_ref());
     let added: Result<()> = pairs.chunk_by(|p, q| p.one == q.one).try_for_each(|pairs| {
         let (i, first) = (pairs[0].one, active.pairs.len());
         let frame = one.frame(i, &x1, &normals)?;
@@ -42,12 +43,7 @@ pub fn again(
                 for &PairRecord { two: j, .. } in pairs {
                     let found = overlap(&frame, &two.facet(j, &x2), by_points(options, filter, i))?;
                     let Some(segment) = found else { continue };
-                    let weights = match one.parents.as_ref().zip(two.parents.as_ref()) {
-                        None => PairWeights::integrate(&frame, &segment, options.rule),
-                        Some(parents) => {
-                            of_parts(parents, (i, j), (&frame, &segment, options.rule), (&x1, &x2), active)?
-                        }
-                    };
+                    let weights = pair_weights(parents, (i, j), (&frame, &segment, options.rule), (&x1, &x2), active)?;
                     active.add(PairRecord { one: i, two: j, weights }, segment.area)?;
                     segments.store(segment)?;
                 }

@@ -150,10 +150,7 @@ impl Stage<'_> {
                             return found.map(|_| ()).map_err(|e| one.at(i)(two.at(j)(e)));
                         }
                     };
-                    let weights = match parents {
-                        None => PairWeights::integrate(frame, segment, options.rule),
-                        Some(parents) => of_parts(parents, (i, j), (frame, segment, options.rule), (x1, x2), active)?,
-                    };
+                    let weights = pair_weights(parents, (i, j), (frame, segment, options.rule), (x1, x2), active)?;
                     active.add(PairRecord { one: i, two: j, weights }, segment.area)?;
                     if let (true, Ok(Some(segment))) = (following.is_some(), found) {
                         room.segments.store(segment)?;
@@ -174,9 +171,22 @@ impl Stage<'_> {
     }
 }
 
-/// Adds the weights of a pair of parts to those of their parents; gives what is covered of each of its rows.
+/// The weights of a pair over its overlap; of parts what is covered of each row, and the rest is added to the weights of their parents.
+pub fn pair_weights(
+    parents: Option<(&Parents, &Parents)>,
+    pair: (usize, usize),
+    over: (&NonmortarFrame, &Segment, &'static Rule),
+    x: (&[Vec3], &[Vec3]),
+    active: &mut Active,
+) -> Result<PairWeights> {
+    match parents {
+        None => Ok(PairWeights::integrate(over.0, over.1, over.2)),
+        Some(parents) => of_parts(parents, pair, over, x, active),
+    }
+}
+
 #[inline(never)]
-pub fn of_parts(
+fn of_parts(
     (one, two): (&Parents, &Parents),
     (i, j): (usize, usize),
     over: (&NonmortarFrame, &Segment, &'static Rule),

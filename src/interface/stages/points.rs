@@ -149,7 +149,8 @@ impl Points {
 
     fn settle_line<const N: usize>(&mut self, given: Given<N>, pairs: &[ParentRecord]) -> Result<()> {
         let ((one, two), x, first, f) = (given.setup.surfaces(), given.weighted_at(), self.pairs.len(), pairs[0].one);
-        let (Some(parents), mut mass) = (one.parents.as_ref(), OfNodes::default()) else { return Ok(()) };
+        let Some(parents) = &one.parents else { return Ok(()) };
+        let mut mass = OfNodes::default();
         for pair in pairs {
             let whole = if two.analytic.is_some() {
                 let (part, rule) = (parents.parts(f).start, given.setup.options.rule);

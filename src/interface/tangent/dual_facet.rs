@@ -86,13 +86,18 @@ fn offset_sums(
 ) -> [f64; MAX_CORNERS] {
     let mut sums = [0.0; MAX_CORNERS];
     for (pair, n) in pairs.iter().filter(|pair| pair.is_active).zip(integrated) {
-        let (own, other) = (one.facets[pair.one].as_slice(), two.facets[pair.two].as_slice());
-        for (a, sum) in sums.iter_mut().enumerate() {
-            *sum += own.iter().zip(&n.ab[a]).map(|(&b, n)| n * one.offset(b)).sum::<f64>();
-            *sum += other.iter().zip(&n.ac[a]).map(|(&c, n)| n * two.offset(c)).sum::<f64>();
-        }
+        let own = one.offsets_of(one.facets[pair.one].as_slice());
+        add_offsets(&mut sums, n, [&own, &two.offsets_of(two.facets[pair.two].as_slice())]);
     }
     sums
+}
+
+/// Adds what a pair with these weights has of o_A, by the offsets of both facets' nodes.
+pub fn add_offsets(sums: &mut [f64; MAX_CORNERS], n: &PairWeights, [own, other]: [&[f64; MAX_CORNERS]; 2]) {
+    for (a, sum) in sums.iter_mut().enumerate() {
+        *sum += own.iter().zip(&n.ab[a]).map(|(h, n)| n * h).sum::<f64>();
+        *sum += other.iter().zip(&n.ac[a]).map(|(h, n)| n * h).sum::<f64>();
+    }
 }
 
 impl DualFacet {

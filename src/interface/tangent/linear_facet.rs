@@ -186,7 +186,7 @@ impl Facet<'_> {
     /// What offsets of the nodes add, after all else.
     fn offsets(&self, dual: Option<&DualFacet>, forces: &mut ForceDerivatives, table: &mut FacetTable) -> Result<()> {
         let (how, [one, two]) = (self.how, self.sides);
-        let (frame, mut h) = (self.overlaps.frame(), of_nodes(one, self.f));
+        let (frame, mut h) = (self.overlaps.frame(), one.offsets_of(one.facets[self.f].as_slice()));
         let eta = dual.and_then(DualFacet::offsets);
         if let Some(surface) = how.surface {
             if eta.is_none() {
@@ -202,7 +202,8 @@ impl Facet<'_> {
             let frame = how.frame(frame);
             for (pair, segment) in self.active_pairs().zip(&self.overlaps.segments) {
                 let mut slopes = NO_AREAS;
-                offset_motion((&frame, segment, how.rule), (&h, &of_nodes(two, pair.two)), &mut slopes);
+                let of_two = two.offsets_of(two.facets[pair.two].as_slice());
+                offset_motion((&frame, segment, how.rule), (&h, &of_two), &mut slopes);
                 table.add_offsets(Some(&two.facets[pair.two]), &slopes);
             }
         }
@@ -211,11 +212,4 @@ impl Facet<'_> {
         }
         Ok(())
     }
-}
-
-/// The offsets of a facet's nodes; 0 of those that a triangle does not have.
-fn of_nodes(side: &Surface, f: usize) -> [f64; MAX_CORNERS] {
-    let (nodes, mut h) = (&side.facets[f], [0.0; MAX_CORNERS]);
-    nodes.as_slice().iter().zip(&mut h).for_each(|(&a, h)| *h = side.offset(a));
-    h
 }

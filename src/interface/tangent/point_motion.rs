@@ -5,7 +5,7 @@
 use super::around::Around;
 use super::emission::{Emitter, NodeBlock, Place};
 use super::point_numbers::PointNumbers;
-use super::point_offsets::{RaisedFacet, of_nodes};
+use super::point_offsets::RaisedFacet;
 use crate::dual::{DualBasis, whole_area_derivative};
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
@@ -169,7 +169,7 @@ impl Table {
             }
             let mut offsets = NO_AREAS;
             if let Some(raised) = &lifted {
-                let two = &of_nodes(two, two.host_nodes(points.pairs[place].two));
+                let two = &two.offsets_of(two.host_nodes(points.pairs[place].two));
                 offset_motion((frame, segment, rule), (&raised.above, two), &mut offsets);
             }
             let nodes = two.facets[points.pairs[place].two].as_slice();
@@ -287,7 +287,7 @@ impl Table {
         (nodes, mortar): (&[usize], &[u32]),
     ) {
         let all = LineDerivatives::new(own, other, MultiplierSpace::Corner, measure);
-        let (h, d) = (&raised.above, of_nodes(two, nodes));
+        let (h, d) = (&raised.above, two.offsets_of(nodes));
         for (slot, j) in (0..4).flat_map(|slot| (0..2).map(move |j| (slot, j))) {
             let column_of = |c: usize| mortar.iter().position(|known| *known as usize == c).map(|c| 2 + c);
             let Some(column) = (if slot < 2 { Some(slot) } else { column_of(nodes[slot - 2]) }) else { continue };
