@@ -28,6 +28,10 @@ else()
 endif()
 write_basic_package_version_file(stickslip-config-version.cmake COMPATIBILITY ${compatibility})
 
+if(TARGET stickslip_mpi)
+  configure_file(cmake/stickslip_mpi.pc.in stickslip_mpi.pc @ONLY)
+endif()
+
 # Where a project around this one has installed files before, the list begins after them.
 install(CODE "list(LENGTH CMAKE_INSTALL_MANIFEST_FILES stickslip_first)")
 install(FILES include/stickslip.h include/stickslip.hpp include/stickslip.f90 DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
@@ -38,13 +42,18 @@ install(FILES "${PROJECT_BINARY_DIR}/stickslip.pc" "${PROJECT_BINARY_DIR}/sticks
   DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
 install(FILES "${PROJECT_BINARY_DIR}/stickslip-config.cmake" "${PROJECT_BINARY_DIR}/stickslip-config-version.cmake"
   DESTINATION "${package_dir}")
+if(TARGET stickslip_mpi)
+  install(TARGETS stickslip_mpi ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  install(FILES mpi/stickslip_mpi.h DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+  install(FILES "${PROJECT_BINARY_DIR}/stickslip_mpi.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+endif()
 install(FILES README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md SUPPORT.md LICENSE-MIT LICENSE-APACHE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 file(GLOB host_pages docs/host_*.md)
 install(FILES ${host_pages} docs/first_program.md docs/plug_in.md docs/formulation.md docs/abi.md docs/compose.md docs/gradients.md docs/general_contact.md docs/accuracy.md docs/exact.md docs/cells.md docs/other_programs.md docs/border.md docs/points.md docs/stability.md docs/glossary.md
   docs/scaling.md docs/other_hosts.md docs/feap.md docs/energy_norm.md docs/method.md docs/dynamics.md docs/without_pivoting.md
   DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs")
 install(FILES ARCHITECTURE.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
-install(FILES c_examples/block_host.c c_examples/petsc_block.c c_examples/pair_demo.c
+install(FILES c_examples/block_host.c c_examples/petsc_block.c c_examples/mpi_block.c c_examples/pair_demo.c
   c_examples/profile_host.c
   DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_examples")
 install(DIRECTORY c_examples/fortran DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_examples" FILES_MATCHING PATTERN "*.f90")
