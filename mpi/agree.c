@@ -44,11 +44,12 @@ int32_t agree(MPI_Comm comm, int32_t status)
   return status;
 }
 
-/* What the library calls things that it numbers. "non-mortar node" ends with "mortar node", and comes first. */
+/* What the library calls things that it numbers, arguments by their names. "non-mortar node" ends with "mortar node", and comes first. */
 static const struct {
   const char *name;
   int         side, facet;
-} NUMBERED[] = {{"non-mortar node", 0, 0}, {"non-mortar facet", 0, 1}, {"mortar node", 1, 0}, {"mortar facet", 1, 1}};
+} NUMBERED[] = {{"non-mortar node", 0, 0}, {"non-mortar facet", 0, 1}, {"nonmortar node", 0, 0},
+                {"nonmortar facet", 0, 1}, {"mortar node", 1, 0},      {"mortar facet", 1, 1}};
 
 enum { N_NUMBERED = sizeof(NUMBERED) / sizeof(NUMBERED[0]) };
 
