@@ -43,7 +43,7 @@ static void evaluations(run *r) {
   double *f1 = room((size_t)(3 * r->side[0].n_nodes), 8), *f2 = room((size_t)(3 * r->side[1].n_nodes), 8), *rows = room((size_t)(3 * r->side[0].n_nodes), 8);
   double *x = r->x[0], values[1];
   const int64_t *facet = r->side[0].nodes + r->side[0].offsets[r->side[0].nx - 1];
-  char           word[64];
+  char           word[128];
   place(r, 0.5, 0.1);
   refused("no plan", stickslip_mpi_interface_plan_values(r->all, 1, values), STICKSLIP_MISSING_ENTRY, "plan");
   x[3 * last_node(r)] = NAN;
