@@ -31,11 +31,12 @@ static const char *const DEFAULTS[][2] = {{"-snes_linesearch_type", "basic"}, {"
 typedef struct {
   PetscInt    n[3], first, planes, width, multipliers; /* elements along the axes; the own planes; unknowns of one, where its multipliers begin */
   PetscMPIInt rank;
-  PetscInt    n1;                    /* own nodes of the bottom */
+  PetscInt    n1, n_facets;          /* of the bottom: own nodes, own facets */
+  int64_t    *node, *below, *multiplier, *offsets, *corners; /* numbers of its nodes and unknowns, its facets */
   PetscReal   friction, load, push, pressed, moved, contact[3], reaction[3];
   PetscReal   K[24][24];             /* of every element: all are alike */
   Vec         u, f;                  /* of the own planes, and of the next one as ghosts */
-  PetscReal  *x1, *lambda, *force1, *rows; /* of the own nodes of the bottom */
+  PetscReal  *X, *x, *lambda, *force, *rows; /* of its nodes: at rest, now, multipliers, what contact says */
   PetscInt    n_elastic;
   int64_t     n_contact;             /* entries of the matrix from elements and prescribed values, and after them from contact */
   PetscScalar *values;
@@ -46,12 +47,6 @@ typedef struct {
 static PetscInt Unknown(const AppCtx *app, PetscInt i, PetscInt j, PetscInt k, PetscInt c)
 {
   return i * app->width + 3 * (k * (app->n[1] + 1) + j) + c;
-}
-
-/* Component c of own bottom node a, in a vector of the own unknowns; its multiplier is app->multipliers farther. */
-static PetscInt Below(const AppCtx *app, PetscInt a, PetscInt c)
-{
-  return Unknown(app, a / (app->n[1] + 1), a % (app->n[1] + 1), 0, c);
 }
 
 /* Unknowns of own element e: lower face counter-clockwise from above, then the upper. Returns whether it is below the top. */
@@ -100,60 +95,66 @@ static void ElementStiffness(AppCtx *app)
   }
 }
 
-/* --- contact begins --------------------------------------------------------------------------------------------------- */
-
-/* Numbers of nodes are any that differ: here that of the plane times (n + 1), and along y. */
-static PetscErrorCode CreateContact(AppCtx *app, PetscScalar *lambda)
+/* What the mesh says of its bottom: numbers of the own nodes, which are any that differ, where they and their unknowns are, and facets,
+ * in right-hand order from outside: they are seen from below. */
+static PetscErrorCode CreateBottom(AppCtx *app)
 {
-  const PetscInt      across = app->n[1] + 1, n_facets = (PetscMin(app->first + app->planes, app->n[0]) - app->first) * app->n[1];
-  const int64_t       base_offsets[2] = {0, 4}, base_nodes[4] = {0, 1, 2, 3}, none[12] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
-  int64_t            *nodes, *equations, *multipliers, *offsets, *corners;
-  stickslip_mpi_share block = {.struct_size = sizeof(block), .n_nodes = app->n1, .n_facets = n_facets, .coordinates = app->x1};
-  stickslip_mpi_share base  = {.struct_size = sizeof(base), .n_nodes = app->rank ? 0 : 4, .n_facets = !app->rank, .nodes = base_nodes,
-    .coordinates = BASE, .equations = none, .facet_offsets = base_offsets, .facet_nodes = base_nodes};
-  stickslip_options   options;
+  const PetscInt across = app->n[1] + 1;
   PetscFunctionBeginUser;
-  PetscCall(PetscMalloc5(app->n1, &nodes, 3 * app->n1, &equations, 3 * app->n1, &multipliers, n_facets + 1, &offsets, 4 * n_facets, &corners));
+  app->n1       = app->planes * across;
+  app->n_facets = (PetscMin(app->first + app->planes, app->n[0]) - app->first) * app->n[1];
+  PetscCall(PetscMalloc5(app->n1, &app->node, 3 * app->n1, &app->X, 3 * app->n1, &app->below, app->n_facets + 1, &app->offsets,
+                         4 * app->n_facets, &app->corners));
   for (PetscInt k = 0; k < 3 * app->n1; k++) {
-    nodes[k / 3]   = app->first * across + k / 3;
-    equations[k]   = app->first * app->width + Below(app, k / 3, k % 3);
-    multipliers[k] = equations[k] + app->multipliers;
+    const PetscInt  i = app->first + k / 3 / across, j = k / 3 % across;
+    const PetscReal X[3] = {SIZE[0] * i / app->n[0], SIZE[1] * j / app->n[1], 0};
+    app->node[k / 3] = i * across + j;
+    app->X[k]        = X[k % 3];
+    app->below[k]    = Unknown(app, i, j, 0, k % 3);
   }
-  for (PetscInt f = 0; f <= n_facets; f++) offsets[f] = 4 * f;
-  for (PetscInt f = 0; f < n_facets; f++) /* right-hand order from outside: the bottom is seen from below */
-    for (int c = 0; c < 4; c++) corners[4 * f + c] = nodes[0] + f / app->n[1] * across + f % app->n[1] + (c / 2) * across + (c == 1 || c == 2);
-  block.nodes = nodes, block.equations = equations, block.multiplier_equations = multipliers, block.facet_offsets = offsets, block.facet_nodes = corners;
-  stickslip_options_init(&options, sizeof(options));
-  options.mu      = app->friction;
-  options.modulus = YOUNG; /* gives the augmentation its unit; the answer does not depend on it */
-  PetscCallContact(stickslip_mpi_interface_create(PETSC_COMM_WORLD, &block, &base, &options, NULL, &app->interface));
-  PetscCallContact(stickslip_mpi_interface_initial_multipliers(app->interface, lambda));
-  PetscCall(PetscFree5(nodes, equations, multipliers, offsets, corners));
+  for (PetscInt f = 0; f <= app->n_facets; f++) app->offsets[f] = 4 * f;
+  for (PetscInt k = 0; k < 4 * app->n_facets; k++)
+    app->corners[k] = app->node[0] + k / 4 / app->n[1] * across + k / 4 % app->n[1] + k % 4 / 2 * across + (k % 4 == 1 || k % 4 == 2);
+  PetscCall(PetscMalloc5(3 * app->n1, &app->multiplier, 3 * app->n1, &app->x, 3 * app->n1, &app->lambda, 3 * app->n1, &app->force,
+                         3 * app->n1, &app->rows));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Says where the own nodes are: positions, not displacements. */
-static int32_t UpdateContact(AppCtx *app, const PetscScalar *u)
+/* --- contact begins --------------------------------------------------------------------------------------------------- */
+
+/* Multipliers to start from: once, app->lambda. */
+static PetscErrorCode CreateContact(AppCtx *app)
 {
-  for (PetscInt k = 0; k < 3 * app->n1; k++) {
-    const PetscInt a = k / 3, i = app->first + a / (app->n[1] + 1), j = a % (app->n[1] + 1);
-    const PetscReal X[3] = {SIZE[0] * i / app->n[0], SIZE[1] * j / app->n[1], 0};
-    app->x1[k]     = X[k % 3] + u[Below(app, a, k % 3)];
-    app->lambda[k] = u[Below(app, a, k % 3) + app->multipliers];
-  }
-  return stickslip_mpi_interface_update(app->interface, app->x1, BASE, app->lambda);
+  static const int64_t offsets[2] = {0, 4}, nodes[4] = {0, 1, 2, 3}, none[12] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+  const stickslip_mpi_share block = {.struct_size = sizeof(block), .n_nodes = app->n1, .nodes = app->node, .coordinates = app->X,
+    .equations = app->below, .multiplier_equations = app->multiplier, .n_facets = app->n_facets, .facet_offsets = app->offsets, .facet_nodes = app->corners};
+  const stickslip_mpi_share base = {.struct_size = sizeof(base), .n_nodes = app->rank ? 0 : 4, .nodes = nodes, .coordinates = BASE,
+    .equations = none, .n_facets = !app->rank, .facet_offsets = offsets, .facet_nodes = nodes};
+  stickslip_options options;
+  PetscFunctionBeginUser;
+  for (PetscInt k = 0; k < 3 * app->n1; k++) app->multiplier[k] = app->below[k] + app->multipliers;
+  stickslip_options_init(&options, sizeof(options));
+  options.mu = app->friction, options.modulus = YOUNG; /* gives the augmentation its unit; the answer does not depend on it */
+  PetscCallContact(stickslip_mpi_interface_create(PETSC_COMM_WORLD, &block, &base, &options, NULL, &app->interface));
+  PetscCallContact(stickslip_mpi_interface_initial_multipliers(app->interface, app->lambda));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Adds contact to the own residual; where it is refused the iterate has run away. */
-static int32_t AddContact(AppCtx *app, PetscScalar *f)
+/* Says where the own nodes are, and adds contact to the residual; where that is refused the iterate has run away. u, f: of the own
+ * unknowns, the first of which has the number `shift`. */
+static int32_t AddContact(AppCtx *app, PetscInt shift, const PetscScalar *u, PetscScalar *f)
 {
-  double        force2[12]; /* on the base: no equations */
-  const int32_t status = stickslip_mpi_interface_residual(app->interface, app->force1, force2, app->rows);
-  for (int i = 0; i < 3; i++) app->contact[i] = 0;
+  double  on_base[12]; /* no equations */
+  int32_t status;
+  for (PetscInt k = 0; k < 3 * app->n1; k++) {
+    app->x[k]      = app->X[k] + u[app->below[k] - shift];
+    app->lambda[k] = u[app->multiplier[k] - shift];
+  }
+  status = stickslip_mpi_interface_update(app->interface, app->x, BASE, app->lambda);
+  if (!status) status = stickslip_mpi_interface_residual(app->interface, app->force, on_base, app->rows);
   for (PetscInt k = 0; k < 3 * app->n1 && !status; k++) {
-    f[Below(app, k / 3, k % 3)] += app->force1[k];
-    f[Below(app, k / 3, k % 3) + app->multipliers] = app->rows[k];
-    app->contact[k % 3] -= app->force1[k];
+    f[app->below[k] - shift] += app->force[k];
+    f[app->multiplier[k] - shift] = app->rows[k];
   }
   return status;
 }
@@ -187,8 +188,9 @@ static PetscErrorCode FormFunction(SNES snes, Vec x, Vec f, void *ctx)
   PetscCall(VecGhostUpdateBegin(app->f, ADD_VALUES, SCATTER_REVERSE));
   PetscCall(VecGhostUpdateEnd(app->f, ADD_VALUES, SCATTER_REVERSE));
   PetscCall(VecGetArray(f_local, &r));
-  if (UpdateContact(app, u) || AddContact(app, r)) PetscCall(SNESSetFunctionDomainError(snes)); /* a smaller step may help */
-  for (int i = 0; i < 3; i++) app->reaction[i] = 0;
+  if (AddContact(app, shift, u, r)) PetscCall(SNESSetFunctionDomainError(snes)); /* a smaller step may help */
+  for (int i = 0; i < 3; i++) app->contact[i] = app->reaction[i] = 0;
+  for (PetscInt k = 0; k < 3 * app->n1; k++) app->contact[k % 3] -= app->force[k];
   for (PetscInt k = 0; k < app->planes * app->width; k++)
     if (Prescribed(app, k)) app->reaction[k % app->width % 3] += r[k], r[k] = app->K[0][0] * (u[k] - (k % app->width % 3 ? 0 : app->moved));
   PetscCall(VecRestoreArray(f_local, &r));
@@ -281,7 +283,7 @@ static PetscErrorCode Accept(AppCtx *app, SNES snes, PetscInt step)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Planes of nodes, vectors with the next plane as ghosts, and room for the nodes of the bottom. */
+/* Planes of nodes, and vectors with the next plane as ghosts. */
 static PetscErrorCode CreateMesh(PetscInt n, AppCtx *app)
 {
   PetscInt all, ghosts, *ghost;
@@ -294,18 +296,13 @@ static PetscErrorCode CreateMesh(PetscInt n, AppCtx *app)
   PetscCall(PetscSplitOwnership(PETSC_COMM_WORLD, &app->planes, &all));
   PetscCallMPI(MPI_Scan(&app->planes, &app->first, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
   app->first -= app->planes;
-  app->n1 = app->planes * (n + 1);
   ghosts  = app->first + app->planes <= n && app->planes ? app->width : 0;
   PetscCall(PetscMalloc1(ghosts, &ghost));
   for (PetscInt k = 0; k < ghosts; k++) ghost[k] = (app->first + app->planes) * app->width + k;
   PetscCall(VecCreateGhost(PETSC_COMM_WORLD, app->planes * app->width, PETSC_DETERMINE, ghosts, ghost, &app->u));
   PetscCall(VecDuplicate(app->u, &app->f));
   PetscCall(PetscFree(ghost));
-  PetscCall(PetscMalloc4(3 * app->n1, &app->x1, 3 * app->n1, &app->lambda, 3 * app->n1, &app->force1, 3 * app->n1, &app->rows));
-  for (PetscInt k = 0; k < 3 * app->n1; k++) {
-    const PetscReal X[3] = {SIZE[0] * (app->first + k / 3 / (n + 1)) / n, SIZE[1] * (k / 3 % (n + 1)) / n, 0};
-    app->x1[k] = X[k % 3];
-  }
+  PetscCall(CreateBottom(app));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -330,10 +327,10 @@ int main(int argc, char **argv)
   PetscCheck(n > 1 && steps > 1, PETSC_COMM_WORLD, PETSC_ERR_ARG_OUTOFRANGE, "-n and -steps are at least 2");
   PetscCall(CreateMesh(n, &app));
   ElementStiffness(&app);
-  PetscCall(CreateContact(&app, app.lambda));
+  PetscCall(CreateContact(&app));
   PetscCall(VecDuplicate(app.u, &x));
   PetscCall(VecGetArray(x, &u));
-  for (PetscInt k = 0; k < 3 * app.n1; k++) u[Below(&app, k / 3, k % 3) + app.multipliers] = app.lambda[k];
+  for (PetscInt k = 0; k < 3 * app.n1; k++) u[app.multiplier[k] - app.first * app.width] = app.lambda[k];
   PetscCall(VecRestoreArray(x, &u));
   PetscCall(MatCreate(PETSC_COMM_WORLD, &J));
   PetscCall(MatSetSizes(J, app.planes * app.width, app.planes * app.width, PETSC_DETERMINE, PETSC_DETERMINE));
@@ -353,7 +350,8 @@ int main(int argc, char **argv)
     PetscCall(Accept(&app, snes, step));
   }
   PetscCallContact(stickslip_mpi_interface_destroy(&app.interface));
-  PetscCall(PetscFree4(app.x1, app.lambda, app.force1, app.rows));
+  PetscCall(PetscFree5(app.node, app.X, app.below, app.offsets, app.corners));
+  PetscCall(PetscFree5(app.multiplier, app.x, app.lambda, app.force, app.rows));
   PetscCall(PetscFree(app.values));
   PetscCall(VecDestroy(&x));
   PetscCall(VecDestroy(&app.u));
