@@ -1,5 +1,5 @@
-/* Whole surfaces, gathered on every rank: numbers, owners, coordinates of the first configuration and facets. That is about 90 bytes a
- * facet of quadrilaterals, a twentieth of what a handle keeps of it, and spares all talk between ranks when parts are cut. Positions and
+/* Whole surfaces, gathered on every rank: numbers, owners, coordinates of the first configuration and facets. That is 66 bytes a
+ * facet of quadrilaterals, a thirtieth of what a handle keeps of it, and spares all talk between ranks when parts are cut. Positions and
  * forces stay where they are. */
 #include "internal.h"
 #include <inttypes.h>

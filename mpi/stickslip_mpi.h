@@ -136,7 +136,7 @@ int32_t stickslip_mpi_interface_initial_multipliers(stickslip_mpi_interface *int
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, and where parts are renewed those of stickslip_interface_set_committed. Within Newton's method
 /// take a smaller step.
-/// Cost: values between neighbours, two reductions.
+/// Cost: values between neighbours, three reductions.
 int32_t stickslip_mpi_interface_update(stickslip_mpi_interface *interface, const double *x1, const double *x2, const double *lambda);
 
 /// Collective. Forces on the own nodes and the own multiplier rows, to add to the host's residual: see

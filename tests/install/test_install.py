@@ -18,6 +18,8 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+# Open MPI asks for leave.
+AS_ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 OTHER_LIBRARIES = re.compile(r"lib(c|m|gcc_s|gfortran|quadmath|stdc\+\+|stickslip)\.so|ld-linux|linux-vdso")
 
 
@@ -211,6 +213,10 @@ def test_pkg_config(tree):
         shutil.copy(ROOT / "tests/install/consumer/main.cpp", tree.work)
         printed = tree.shell(f"c++ -std=c++17 main.cpp {flags} {rpath} -o cpp && ./cpp", **path)
         expect(printed.startswith("overlap 0.500"), f"c++, {package}: {printed.strip()}")
+    if (tree.prefix / "lib/libstickslip_mpi.a").exists():
+        shutil.copy(ROOT / "tests/install/consumer/mpi.c", tree.work)
+        printed = tree.shell(f"mpicc mpi.c $(pkg-config --cflags --libs stickslip_mpi) {rpath} -lm -o mpi && ./mpi", **path, **AS_ROOT)
+        expect("nonmortar is NULL" in printed, f"mpicc, stickslip_mpi: {printed.strip()}")
     static = tree.shell("pkg-config --static --libs stickslip", **path).split()
     native = (tree.build / "native-static-libs.txt").read_text().split()
     expect([f for f in native if f != "-lgcc_s"] == [f for f in static if f.startswith("-l") and f != "-lstickslip"],
@@ -231,6 +237,8 @@ def test_cmake(tree):
         for language in ("c", "fortran"):
             tree.demo(f"ln -sf build/{language}_{kind} demo", f"{language}, stickslip::{kind}")
         expect(tree.shell(f"build/cpp_{kind}").startswith("overlap 0.500"), f"cpp, stickslip::{kind}")
+        if (tree.prefix / "lib/libstickslip_mpi.a").exists():
+            expect("nonmortar is NULL" in tree.shell(f"build/mpi_{kind}", **AS_ROOT), f"c, stickslip::mpi, stickslip::{kind}")
     loaded = tree.shell("ldd build/c_stickslip")
     expect(f"{tree.prefix}/lib/libstickslip.so" in loaded, "the shared library is the installed one")
 
