@@ -175,6 +175,21 @@ int32_t stickslip_mpi_interface_equilibrium(stickslip_mpi_interface *interface, 
 int32_t stickslip_mpi_interface_step_limit(stickslip_mpi_interface *interface, const double *dx1, const double *dx2,
                                            double penetration, double *fraction);
 
+/// Collective. The multipliers of a system without them, in each evaluation after update: those that balance the rows of the own nodes.
+/// They take the place of the update's. See stickslip_interface_condensed_multipliers.
+///
+/// host1: the residual of the host's own forces at the own non-mortar nodes, without contact [F]. lambda, output, of the own nodes.
+int32_t stickslip_mpi_interface_condensed_multipliers(stickslip_mpi_interface *interface, const double *host1, double *lambda);
+
+/// Collective. The residual of a system without multipliers: rows1 in place of the host's rows of the own non-mortar nodes, force2 to add to
+/// those of the mortar nodes. See stickslip_interface_condensed_residual.
+int32_t stickslip_mpi_interface_condensed_residual(stickslip_mpi_interface *interface, const double *host1, double *rows1, double *force2);
+
+/// Collective. This rank's entries of a piece of the matrix of such a system; those of all ranks add up, and the matrix is made of the
+/// sums. See stickslip_interface_condensed_coo.
+int32_t stickslip_mpi_interface_condensed_coo(stickslip_mpi_interface *interface, int32_t piece, int64_t capacity, int64_t *rows,
+                                              int64_t *columns, double *values, int64_t *count);
+
 /// Collective. Accepts the step that converged at the place of the last update. Where one part refuses, no rank has committed.
 /// Parts are renewed where their margin is half used up, or shares are no longer balanced.
 ///
