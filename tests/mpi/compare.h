@@ -20,6 +20,7 @@ typedef struct {
   int               renews;  /* parts must have been renewed on the way */
   int32_t           shares;
   double            mortar; /* its length; 0: beyond the strip's way */
+  double            width;  /* its width; 0: beyond the strip's */
 } scene;
 
 static int rank, size, failures;
@@ -182,7 +183,7 @@ static inline void begin(run *r, const scene *s, int spread) {
   options.search_distance = s->options.search_distance, options.small_displacements = s->options.small_displacements;
   options.index_base = s->options.index_base, options.modulus = 100;
   make_surface(&r->side[0], s->kind[0], 48, 2, 1, 12, 0.8, 0, 0);
-  make_surface(&r->side[1], s->kind[1], 56, 3, 0, s->mortar > 0 ? s->mortar : 16, 1.1, 1, 0.2);
+  make_surface(&r->side[1], s->kind[1], 56, 3, 0, s->mortar > 0 ? s->mortar : 16, s->width > 0 ? s->width : 1.1, 1, 0.2);
   r->d = r->side[0].d, r->c = options.friction == STICKSLIP_FRICTION_NONE ? 1 : r->d;
   r->n = number_unknowns(r->side, r->c);
   if (options.index_base) {

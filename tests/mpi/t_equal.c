@@ -10,6 +10,7 @@ enum { STEPS = 4 };
 #define STANDARD {.multiplier_basis = STICKSLIP_BASIS_STANDARD}
 static const scene SCENES[] = {
   {"dual", {QUAD4, QUAD4}, {0}, {.mu = 0.3}, 1},
+  {"slivers, which neighbours carry", {QUAD4, QUAD4}, {0}, {.mu = 0.3}, 1, .width = 0.55},
   {"standard", {QUAD4, QUAD4}, STANDARD, {.mu = 0.3}, 1},
   {"standard, a search distance", {QUAD4, TRI3}, STANDARD, {.mu = 0.3, .search_distance = 0.4}, 1},
   {"dual triangles, a search distance", {TRI3, QUAD4}, DUAL, {.mu = 0.3, .search_distance = 0.4}, 1},
