@@ -7,7 +7,8 @@ typedef struct {
   size_t value, scale, node;
 } Finding;
 
-#define FINDING(name, scale) {offsetof(stickslip_equilibrium, name), offsetof(stickslip_equilibrium, scale), offsetof(stickslip_equilibrium, name##_node)}
+#define AT(name) offsetof(stickslip_equilibrium, name)
+#define FINDING(name, scale) {AT(name), AT(scale), AT(name##_node)}
 /* `turn` is an angle: it has no scale, and stands for its own. */
 static const Finding FINDINGS[] = {FINDING(gap, gap_scale), FINDING(traction, traction_scale), FINDING(slip, slip_scale),
                                    FINDING(slide, slide_scale), FINDING(lag, traction_scale), FINDING(penetration, penetration_scale),

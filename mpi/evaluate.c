@@ -57,8 +57,8 @@ int32_t stickslip_mpi_interface_plan(stickslip_mpi_interface *interface, int32_t
     status = refuse_by_library(interface, stickslip_interface_plan(part->handle, part->x[0], part->x[1], pairs, &n_rows, &n));
   status = agree(interface->comm, status);
   if (status) return status;
-  part->planned         = 1;
-  part->planned_entries = *count = n;
+  part->planned = 1;
+  *count        = n;
   return STICKSLIP_OK;
 }
 

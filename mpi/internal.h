@@ -47,7 +47,6 @@ typedef struct {
   int32_t             *works; /* these, as places in the part */
   stickslip_interface *handle; /* NULL: this rank has no part */
   int                  planned;
-  int64_t              planned_entries;
 } Part;
 
 /* Bounds of vectors, so that the largest of all ranks are those of all. */
