@@ -42,6 +42,8 @@ static const struct {
   PetscBool   facet;
 } NUMBERED[] = {{"non-mortar node", 0, PETSC_FALSE},
                 {"non-mortar facet", 0, PETSC_TRUE},
+                {"nonmortar node", 0, PETSC_FALSE}, /* as the argument is called */
+                {"nonmortar facet", 0, PETSC_TRUE},
                 {"mortar node", 1, PETSC_FALSE},
                 {"mortar facet", 1, PETSC_TRUE}};
 
