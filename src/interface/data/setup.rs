@@ -143,6 +143,11 @@ impl<const N: usize> Setup<N> {
         self.options.decides_at_points()
     }
 
+    /// Whether answers depend on covered areas.
+    pub fn reads_areas(&self) -> bool {
+        self.layer.is_some() || self.options.conserves()
+    }
+
     /// Whether all blocks of a tangent are of nodes, none of facets: where points decide, and with conserving weights.
     #[inline]
     pub fn has_blocks_of_nodes(&self) -> bool {
