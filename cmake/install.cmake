@@ -53,6 +53,11 @@ install(DIRECTORY c_examples/snes_contact c_examples/scenes c_examples/meshes DE
   FILES_MATCHING PATTERN "*.c" PATTERN "*.h" PATTERN "*.yaml" PATTERN "*.msh" PATTERN "*.geo" PATTERN "*.py" PATTERN "*.sh" PATTERN "*.md")
 install(DIRECTORY docs/figures/ DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs/figures")
 
+# The driver as a program, which has the library within it.
+if(TARGET snes_contact)
+  install(PROGRAMS "$<TARGET_FILE:snes_contact>" DESTINATION "${CMAKE_INSTALL_BINDIR}" RENAME stickslip)
+endif()
+
 # The list for uninstalling, relative to the prefix, so that it is right wherever the tree is:
 #   cd PREFIX && xargs -d '\n' rm -f < share/stickslip/installed.txt
 set(installed_list "${CMAKE_INSTALL_DATADIR}/stickslip/installed.txt")

@@ -156,14 +156,20 @@ pub trait Store<T> {
     fn store_all(&mut self, values: impl Iterator<Item = T>) -> Result<()>;
 }
 
+/// As [`Store::store`], within the loop that calls it: for what comes entry by entry of a matrix.
+#[inline(always)]
+pub fn store_entry<T>(values: &mut Vec<T>, value: T) -> Result<()> {
+    if values.len() == values.capacity() {
+        values.try_reserve(1)?;
+    }
+    values.push(value);
+    Ok(())
+}
+
 impl<T> Store<T> for Vec<T> {
     #[inline]
     fn store(&mut self, value: T) -> Result<()> {
-        if self.len() == self.capacity() {
-            self.try_reserve(1)?;
-        }
-        self.push(value);
-        Ok(())
+        store_entry(self, value)
     }
 
     #[inline]

@@ -1,16 +1,22 @@
 /* snes_contact: frictional contact of elastic bodies, solved by PETSc's SNES with the stickslip contact element.
  *
- *   snes_contact -scene FILE.yaml -output_dir DIR [any PETSc option]
+ *   stickslip FILE.yaml [-output_dir DIR] [any PETSc option]
+ *
+ * as it is installed; `snes_contact` in the build tree, where the scene may be given by -scene FILE.yaml, too. Without a folder the results go
+ * to FILE_results in the current one.
  *
  * The scene's format is documented in scenes/README.md. Exit codes: 0 every step converged, 1 bad scene, 2 not converged,
  * 3 refused by the contact library. */
 #include "mesh/converted.h"
 #include "physics/dynamics.h"
 #include "model.h"
+#include "solve/sensitivity.h"
+#include <stddef.h>
+#include <string.h>
 
 static const char help[] = "Frictional contact of elastic bodies.\n"
-                           "  -scene FILE.yaml   what to solve (format: c_examples/scenes/README.md)\n"
-                           "  -output_dir DIR    where summary.json, interface_*.csv and step_*.vtu go\n"
+                           "  FILE.yaml, or -scene FILE.yaml   what to solve (format: c_examples/scenes/README.md)\n"
+                           "  -output_dir DIR    where summary.json, interface_*.csv and step_*.vtu go; else to FILE_results\n"
                            "  -convert FILE.h5   writes the bodies from Gmsh files for all ranks to read, and ends\n"
                            "  -test_jacobian_blocks  compare the tangent with differences of the residual\n"
                            "Every value of the scene can be overridden: `block: {young: 1}` by -block_young 1.\n\n";
@@ -59,6 +65,8 @@ static PetscErrorCode read_scene(Model *model)
   PetscCall(contact_read(model->scene, &model->contact));
   PetscCall(iterative_read(model->scene, &model->solve));
   PetscCall(heat_read(model->scene, &model->heat));
+  PetscCall(sensitivity_read(model->scene, &model->solve));
+  sensitivity_refuse(model->scene, &model->solve, model->heat.on, "heat");
   PetscCall(output_read(model->scene, &model->output));
   scene_string(model->scene, NULL, "restart", model->restart, sizeof(model->restart));
   model->solve.quiet = model->output.quiet;
@@ -106,6 +114,7 @@ static PetscErrorCode build(Model *model, PetscInt *status)
   PetscCall(supports_values(physics, 0));
   PetscCall(VecCopy(physics->prescribed_local, physics->u_local)); /* the configuration of the first sparsity pattern */
   PetscCall(newton_create(solve));
+  PetscCall(sensitivity_create(model->scene, solve));
   PetscCall(redundant_find(solve, NULL, &n_redundant));
   PetscCall(jacobian_test_create(solve, model->scene));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -116,6 +125,7 @@ static PetscErrorCode clean_up(Model *model)
   PetscFunctionBegin;
   PetscCall(output_destroy(&model->output));
   PetscCall(heat_destroy(&model->heat));
+  PetscCall(sensitivity_destroy(&model->solve));
   PetscCall(newton_destroy(&model->solve));
   PetscCall(held_destroy(&model->solve));
   PetscCall(redundant_destroy(&model->solve));
@@ -125,6 +135,26 @@ static PetscErrorCode clean_up(Model *model)
   PetscCall(mesh_destroy(&model->mesh));
   PetscCall(PetscFree(model->effective));
   PetscCall(scene_close(&model->scene));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The scene's file: the first argument, unless it is an option. */
+static PetscErrorCode find_scene(int argc, char **argv, char scene[], size_t length, PetscBool *found)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsGetString(NULL, NULL, "-scene", scene, length, found));
+  if (*found || argc < 2 || argv[1][0] == '-') PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscStrncpy(scene, argv[1], length));
+  *found = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* FILE_results in the current folder, for PATH/FILE.yaml */
+static PetscErrorCode name_directory(const char *scene, char directory[], size_t length)
+{
+  const char *name = strrchr(scene, '/') ? strrchr(scene, '/') + 1 : scene, *dot = strrchr(name, '.');
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(directory, length, "%.*s_results", (int)(dot && dot > name ? dot - name : (ptrdiff_t)strlen(name)), name));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -138,19 +168,17 @@ int main(int argc, char **argv)
 
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(PetscTime(&model.output.started));
-  PetscCall(PetscOptionsGetString(NULL, NULL, "-scene", scene, sizeof(scene), &have_scene));
+  PetscCall(find_scene(argc, argv, scene, sizeof(scene), &have_scene));
   PetscCall(PetscOptionsGetString(NULL, NULL, "-output_dir", directory, sizeof(directory), &have_directory));
   PetscCall(PetscOptionsGetString(NULL, NULL, "-convert", converted, sizeof(converted), &convert));
-  if (!have_scene || (!have_directory && !convert)) {
+  if (!have_scene) {
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
-                           "snes_contact: %s is missing: %s.\n"
-                           "usage: snes_contact -scene FILE.yaml -output_dir DIR [any PETSc option]\n",
-                           have_scene ? "-output_dir" : "-scene",
-                           have_scene ? "name a folder for the results, which is made if it is not there" :
-                                        "name the YAML file of the scene"));
+                           "snes_contact: the scene is missing: name its YAML file.\n"
+                           "usage: %s FILE.yaml [-output_dir DIR] [any PETSc option]\n", argv[0]));
     PetscCall(PetscFinalize());
     return 1;
   }
+  if (!have_directory) PetscCall(name_directory(scene, directory, sizeof(directory)));
   connect(&model);
   model.output.directory = directory;
   PetscCall(scene_open(scene, argc, argv, &model.scene));

@@ -26,6 +26,7 @@ typedef struct {
   PetscBool offsets;   /* the last one could not begin: the library refused the offsets of its time */
   PetscBool converged; /* the last attempt had, so that its commit was refused if the library refused */
   PetscBool again;     /* the last one was the second one of its step, for general contact looks for more since */
+  PetscBool no_slopes; /* the library has no derivatives by the scene's parameters */
   PetscBool late;      /* it came after energy was wrong already: no shorter step helps */
 } Run;
 

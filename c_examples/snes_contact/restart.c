@@ -2,6 +2,7 @@
  * Multigrid is left out, which serves for several matrices: where it solves, bits differ, and answers to its tolerance only. So they do on
  * several ranks, where no two runs have the same bits. */
 #include "model.h"
+#include "solve/sensitivity.h"
 #include <stdio.h>
 
 static PetscErrorCode contents(Model *model, Run *state, Archive *archive)
@@ -13,6 +14,7 @@ static PetscErrorCode contents(Model *model, Run *state, Archive *archive)
   PetscCall(contact_archive(&model->contact, archive));
   PetscCall(solve_archive(&model->solve, &state->past, &state->size, archive));
   PetscCall(heat_archive(&model->heat, archive));
+  PetscCall(sensitivity_archive(&model->solve, archive));
   PetscCall(energy_archive(&model->output, archive));
   PetscCall(summary_archive(state->summary, archive));
   PetscCall(solve_archive_pattern(&model->solve, archive)); /* the last one: runs on several ranks do not look at it */

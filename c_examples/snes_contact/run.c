@@ -2,6 +2,7 @@
 #include "model.h"
 #include "physics/dynamics.h"
 #include "solve/redundant.h"
+#include "solve/sensitivity.h"
 
 /* Normals of a step are found anew so often at most: each time they change by some per cent of the last change. */
 enum { CORRECTIONS = 8 };
@@ -110,6 +111,20 @@ static PetscErrorCode check(Model *model, Run *run, PetscBool last)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What the converged step follows. Where the library has no derivatives, no shorter step helps. */
+static PetscErrorCode find_influences(Model *model, Run *run, PetscBool *done)
+{
+  PetscInt refused;
+  PetscFunctionBegin;
+  PetscCall(sensitivity_solve(&model->solve, run->x, &refused));
+  if (!refused) PetscFunctionReturn(PETSC_SUCCESS);
+  *done          = PETSC_FALSE;
+  run->late      = PETSC_TRUE;
+  run->no_slopes = PETSC_TRUE;
+  PetscCall(PetscSNPrintf(model->solve.newton.why, sizeof(model->solve.newton.why), "`parameters`: %s", model->contact.refusal));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Solve at t and commit; `last`: t is the end of the run. */
 static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool asked, PetscBool last, PetscBool *done)
 {
@@ -146,6 +161,7 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
   if (*done && !newton->why[0]) PetscCall(check(model, run, last));
   if (*done && newton->why[0]) *done = PETSC_FALSE;
   run->converged = *done;
+  if (*done) PetscCall(find_influences(model, run, done));
   if (*done) {
     PetscCall(summary_step(&model->output, run->summary, run->step + 1, PETSC_TRUE, asked, last));
     PetscCall(energy_check(&model->output, &run->late, newton->why, sizeof(newton->why)));
@@ -179,6 +195,7 @@ static PetscErrorCode accept(Model *model, Run *run)
   model->solve.iterations        = 0;
   parts_accept(&model->physics);
   PetscCall(heat_accept(&model->heat));
+  PetscCall(sensitivity_accept(&model->solve));
   equilibrium_accept(&model->contact);
   PetscCall(slide_accept(&model->contact));
   PetscCall(unseen_accept(&model->contact));
@@ -209,6 +226,9 @@ static PetscErrorCode give_up(Model *model, const Run *run, int *exit_code)
                            "snes_contact: refused by the library: %s. That is the heat of the step from t = %.6g to %.6g, whose "
                            "mechanics had converged.\n",
                            refusal, (double)run->past.t_last, (double)model->physics.t));
+  else if (refusal[0] && run->no_slopes)
+    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
+                           "snes_contact: refused by the library: %s. That is what `parameters` ask for; the step had converged.\n", refusal));
   else if (refusal[0] && run->offsets)
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                            "snes_contact: refused by the library: %s. Those are the offsets of the scene at t = %.6g.\n", refusal,

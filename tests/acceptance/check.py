@@ -33,6 +33,7 @@ from normals_full import normals_full, normals_iterations  # noqa: E402
 from heat import heat  # noqa: E402
 from heat_moving import heat_moving  # noqa: E402
 from offsets import offsets  # noqa: E402
+from parameters import parameters, parameters_scenes  # noqa: E402
 from plane import plane, plane_ball  # noqa: E402
 from plane_analytic import plane_analytic  # noqa: E402
 from points import points, points_full  # noqa: E402
@@ -97,6 +98,8 @@ GROUPS = {
     "heat": heat,
     "heat_moving": heat_moving,
     "offsets": offsets,
+    "parameters": parameters,
+    "parameters_scenes": parameters_scenes,  # some minutes; not among the tests
     "plane": plane,
     "plane_analytic": plane_analytic,
     "plane_ball": plane_ball,

@@ -160,6 +160,11 @@ def test_programs(tree):
     # The linker warns of functions of std that nothing here calls.
     command = lines[0].removesuffix(" && ./demo").replace("cc ", "cc -static ", 1)
     tree.demo(f"{command} 2>/dev/null", "C, everything static")
+    # The driver is there where PETSc is: a scene by its name alone, as its page has it.
+    if (tree.prefix / "bin/stickslip").exists():
+        scene = "share/doc/stickslip/c_examples/scenes/patch_flat_3_4"
+        tree.shell(f"$PREFIX/bin/stickslip $PREFIX/{scene}.yaml", OMPI_MCA_ess_singleton_isolated="1")
+        expect((tree.work / f"{Path(scene).name}_results/summary.json").is_file(), "stickslip runs a scene")
 
 
 def squeezed(text):

@@ -392,6 +392,15 @@ PetscErrorCode contact_scatter(const ContactPart *part, const PetscScalar *from,
 PetscErrorCode contact_start(Contact *contact, Vec x, PetscInt *status);
 PetscErrorCode contact_forces(Contact *contact, Vec f_local, PetscInt *status); /* adds, to the parts' squares, too */
 PetscErrorCode contact_commit(Contact *contact, Vec x, PetscInt *status); /* in x multipliers may change, of general contact */
+/* along.c: adds what forces and rows change by where all of this changes; at the place of the last evaluation */
+typedef struct {
+  PetscInt  interface;                     /* of which friction, limit and offset are */
+  PetscReal friction, shear_limit, offset; /* of all its non-mortar nodes */
+  Vec       previous, now;                 /* local: displacements at t_n, of now; NULL: they stay */
+  PetscBool multipliers;                   /* those of `now` change the forces, too */
+} ContactDirection;
+PetscErrorCode contact_along(Contact *contact, const ContactDirection *direction, Vec f_local, PetscInt *status);
+PetscBool      contact_mortar_stays(const ContactPart *part); /* then all of it must be held by one support, a component */
 /* skin.c: of node a of the part, by what lies opposite in a skin */
 PetscReal contact_friction(const Mesh *mesh, const Interface *interface, PetscInt a);
 /* joints.c: bodies that contact joins at these states of all interfaces' nodes at home, or could; to be freed */

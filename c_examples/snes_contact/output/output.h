@@ -44,6 +44,9 @@ PetscErrorCode summary_write(Output *output, Summary **summary, Vec last, PetscI
 /* acting.c: of a step, to its entry */
 PetscErrorCode acting_report(Output *output, struct cJSON *step);
 
+/* sensitivity_results.c: likewise, of what the scene wants to know the influence of */
+PetscErrorCode sensitivity_report(const Output *output, struct cJSON *step);
+
 /* energy.c: with `dynamics` */
 PetscErrorCode energy_begin(const Output *output);
 PetscErrorCode energy_report(const Output *output, PetscReal friction, struct cJSON *step);

@@ -291,6 +291,7 @@ PetscErrorCode summary_step(Output *output, Summary *summary, PetscInt step, Pet
   }
   PetscCall(add_probes(output, json));
   PetscCall(heat_results(output, json));
+  PetscCall(sensitivity_report(output, json));
   if (vtu) PetscCall(vtu_write(output, step));
   if (vtu) PetscCall(vtu_rigids(output, step));
   if (vtu) PetscCall(vtu_skin(output, step));

@@ -315,6 +315,54 @@ PetscErrorCode bulk_extension(Physics *physics, Vec u_local, Vec f_local, Mat ma
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode bulk_along(Physics *physics, Vec change, Vec f_local)
+{
+  const Cells       *cells = &physics->cells;
+  const PetscScalar *du;
+  PetscScalar       *f;
+  View               view;
+  PetscFunctionBegin;
+  PetscCall(look(physics, NULL, &view));
+  PetscCall(VecGetArrayRead(change, &du));
+  PetscCall(VecGetArray(f_local, &f));
+  for (PetscInt c = 0; c < cells->n; c++) {
+    const PetscInt *dofs = cells->dofs + cells->offsets[c], n = 3 * (cells->offsets[c + 1] - cells->offsets[c]);
+    PetscReal       u_cell[3 * CELL_NODES], f_cell[3 * CELL_NODES], K[9 * CELL_NODES * CELL_NODES];
+    PetscBool       inverted;
+    if (is_rigid(physics, c)) continue;
+    PetscCall(evaluate(physics, c, &view, u_cell, f_cell, K, &inverted));
+    cell_displacements(physics, c, du, u_cell);
+    for (PetscInt k = 0; k < n * n; k++)
+      f[dofs[k / n / 3] + k / n % 3] += K[k] * u_cell[k % n];
+  }
+  PetscCall(VecRestoreArray(f_local, &f));
+  PetscCall(VecRestoreArrayRead(change, &du));
+  PetscCall(looked(physics, &view));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode bulk_per_young(Physics *physics, PetscInt body, Vec f_local)
+{
+  const Cells *cells = &physics->cells;
+  PetscScalar *f;
+  View         view;
+  PetscFunctionBegin;
+  PetscCall(look(physics, NULL, &view));
+  PetscCall(VecGetArray(f_local, &f));
+  for (PetscInt c = 0; c < cells->n; c++) {
+    const PetscInt *dofs = cells->dofs + cells->offsets[c], n = cells->offsets[c + 1] - cells->offsets[c];
+    PetscReal       u_cell[3 * CELL_NODES], f_cell[3 * CELL_NODES];
+    PetscBool       inverted;
+    if (cells->body[c] != body) continue;
+    PetscCall(evaluate(physics, c, &view, u_cell, f_cell, NULL, &inverted));
+    for (PetscInt k = 0; k < 3 * n; k++)
+      f[dofs[k / 3] + k % 3] += f_cell[k] / physics->materials[body].young;
+  }
+  PetscCall(VecRestoreArray(f_local, &f));
+  PetscCall(looked(physics, &view));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode bulk_pattern(Physics *physics, Mat matrix)
 {
   static const PetscReal zeros[9 * CELL_NODES * CELL_NODES];

@@ -338,6 +338,8 @@ PetscErrorCode bulk_step_forces(Physics *physics, const BulkStep *step, Vec f_lo
 PetscErrorCode bulk_step_stiffness(Physics *physics, const BulkStep *step, Mat matrix, PetscInt *status);
 PetscErrorCode bulk_extension(Physics *physics, Vec u_local, Vec f_local, Mat matrix); /* adds to both */
 PetscErrorCode bulk_pattern(Physics *physics, Mat matrix);                             /* adds zeros */
+PetscErrorCode bulk_along(Physics *physics, Vec change, Vec f_local);                  /* adds K times a local vector, prescribed entries too */
+PetscErrorCode bulk_per_young(Physics *physics, PetscInt body, Vec f_local);           /* adds the forces of a body over its E, in which they are linear */
 
 /* parts.c. Between parts_label() and parts_create() the contact sets each part's `reach`. */
 PetscErrorCode parts_label(Physics *physics);

@@ -26,6 +26,7 @@ void scene_names(Scene *scene, const char *list, PetscInt *n, char ***names)
                                          "springs",
                                          "interfaces",
                                          "probes",
+                                         "parameters",
                                          "frame",
                                          "steps",
                                          "dynamics",

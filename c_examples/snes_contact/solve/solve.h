@@ -114,10 +114,13 @@ typedef struct {
   PetscInt   iterations, most; /* of all, of one */
 } Linear;
 
+typedef struct Sensitivity Sensitivity; /* sensitivity.h */
+
 typedef struct {
   Mesh     *mesh;
   Physics  *physics;
   Contact  *contact;
+  Sensitivity *sensitivity; /* NULL: the scene asks for none */
   PetscBool quiet;   /* no notes */
   PetscBool outside; /* the last residual could not be evaluated */
   Steps     steps;

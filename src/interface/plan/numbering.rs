@@ -94,6 +94,7 @@ impl<'a> Nodes<'a> {
     }
 
     /// Whether a node has rows here: a multiplier that acts elsewhere is but a column.
+    #[inline(always)]
     pub fn has_rows(self, node: usize) -> bool {
         node.checked_sub(self.multiplier(0)).is_none_or(|a| self.setup.owners[a] != Owner::Elsewhere)
     }

@@ -11,7 +11,7 @@ use crate::error::Result;
 use crate::interface::data::lists::Lists;
 use crate::interface::data::options::Form;
 use crate::interface::data::surface::NO_EQUATION;
-use crate::memory::{self, Store};
+use crate::memory::{self, Store, store_entry};
 
 /// The place of an entry beside that has no equation.
 pub const NOWHERE: usize = usize::MAX;
@@ -192,7 +192,7 @@ impl Layout<'_> {
         for &scalar in scalars {
             let (node, i) = (scalar as usize / SCALARS, scalar as usize % SCALARS);
             self.row(node, i, &rows[node], &mut |equation, _| {
-                if equation != NO_EQUATION { columns.store(equation) } else { Ok(()) }
+                if equation != NO_EQUATION { store_entry(columns, equation) } else { Ok(()) }
             })?;
         }
         memory::sort(columns)?;
@@ -279,7 +279,7 @@ impl Layout<'_> {
             let (node, i) = (scalars[0] as usize / SCALARS, scalars[0] as usize % SCALARS);
             if p.rows[node].is_direct {
                 columns.clear();
-                self.row(node, i, &p.rows[node], &mut |equation, _| columns.store(equation))?;
+                self.row(node, i, &p.rows[node], &mut |equation, _| store_entry(&mut columns, equation))?;
             } else {
                 self.equation_columns(scalars, &p.rows, &mut columns)?;
             }
