@@ -73,7 +73,6 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_CURRENT = 1
   integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_COMMITTED = 2
   integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_REFERENCE = 3
-  integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_PERSISTENT = 4
   integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_CONSERVING = 5
 
   ! Normals: of the last commit; of the current configuration, linearised, with current weights and averaged normals only.

@@ -258,8 +258,8 @@
 #define STICKSLIP_SLIP_INCREMENT 1
 
 /// P g[n_n,x]: the paper's literal (12); drifts on curved interfaces.
-/// Not with (UNSUPPORTED): persistent weights (STICKSLIP_WEIGHTS_PERSISTENT); points that decide (STICKSLIP_DECISION_POINTS)
-/// and friction; conserving weights (STICKSLIP_WEIGHTS_CONSERVING); wear or a bond (stickslip_layer).
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS) and friction; conserving weights
+/// (STICKSLIP_WEIGHTS_CONSERVING); wear or a bond (stickslip_layer).
 #define STICKSLIP_SLIP_PAPER 2
 
 /// Of now; with STICKSLIP_DECISION_POINTS and friction, or an analytic surface, those of the last commit. Default.
@@ -274,12 +274,6 @@
 /// Weights, normals and areas frozen at the first configuration: small displacements.
 #define STICKSLIP_WEIGHTS_REFERENCE 3
 
-/// Weights frozen at the last commit, and what overlaps there counts as closed: a step need not part it. The work of the contact forces over a
-/// step is then never positive, whatever slides and turns: for dynamics.
-/// Not with (UNSUPPORTED): the paper's slip measure (STICKSLIP_SLIP_PAPER); points that decide (STICKSLIP_DECISION_POINTS);
-/// a layer between the surfaces (stickslip_interface_set_layer); offsets; derivatives by positions of t_n and by parameters.
-#define STICKSLIP_WEIGHTS_PERSISTENT 4
-
 /// Weights and normals of now, and gaps that are functions of the places alone. A step closes them up to what the last one has left, and its
 /// forces work exactly what they change by: nothing gains and nothing sinks, whatever slides and turns. For dynamics whose displacements follow
 /// the mean of the velocities. Multipliers and `normal` are along the normals half way between t_n and now (docs/formulation.md 21).
@@ -287,8 +281,8 @@
 /// the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (method.element_points); nodes that others
 /// carry (weak_coverage > 0, the default of dual multipliers); an analytic mortar side whose frame has equations; normals of
 /// the host; offsets; a layer between the surfaces (stickslip_interface_set_layer); a law of one's own; orthotropic
-/// friction; nodes that handles share (owned has STICKSLIP_NODE_SHARED); condensation; sums of several handles; heat;
-/// derivatives by positions of t_n and by parameters.
+/// friction; nodes that handles share (owned has STICKSLIP_NODE_SHARED); condensation; sums of several handles; derivatives
+/// of heat by displacements and multipliers; derivatives by positions of t_n and by parameters.
 #define STICKSLIP_WEIGHTS_CONSERVING 5
 
 /// Of now, unless weights are frozen or the host gives normals: then of the last commit. Default.
@@ -321,7 +315,7 @@
 /// all while the surfaces are apart: no law, row -lambda / r; the former's tangent block is its diagonal.
 #define STICKSLIP_SHORTCUT_UNCOVERED 8
 
-/// Dual, but with STICKSLIP_SPACE_SUB or STICKSLIP_WEIGHTS_PERSISTENT standard. Default.
+/// Dual, but with STICKSLIP_SPACE_SUB or STICKSLIP_WEIGHTS_CONSERVING standard. Default.
 #define STICKSLIP_BASIS_AUTO 0
 
 /// Standard shape functions for the multiplier (the paper's): tractions oscillate beside edges and on curved surfaces.
@@ -395,13 +389,13 @@
 /// on it, by what vanishes with the facets' size. An augmentation beside it takes the place of r = 0.9 E* / h_A alone; r is then part of the
 /// answer, too.
 /// Not with (UNSUPPORTED): tied surfaces (STICKSLIP_FRICTION_TIED); friction and weights of now (STICKSLIP_WEIGHTS_CURRENT);
-/// friction and the paper's slip measure (STICKSLIP_SLIP_PAPER); standard multipliers (STICKSLIP_BASIS_STANDARD); persistent
-/// weights (STICKSLIP_WEIGHTS_PERSISTENT); the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps
-/// (method.element_points); nodes that others carry (weak_coverage > 0, the default of dual multipliers); conserving weights
-/// (STICKSLIP_WEIGHTS_CONSERVING); an analytic mortar side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid
-/// nodes; a law of one's own; a layer between the surfaces (stickslip_interface_set_layer); parts of an interface (owned has
-/// STICKSLIP_NODE_ELSEWHERE); nodes that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes
-/// (stickslip_interface_set_committed) and friction; condensation; heat; derivatives by positions of t_n and by parameters.
+/// friction and the paper's slip measure (STICKSLIP_SLIP_PAPER); standard multipliers (STICKSLIP_BASIS_STANDARD); the
+/// augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (method.element_points); nodes that others
+/// carry (weak_coverage > 0, the default of dual multipliers); conserving weights (STICKSLIP_WEIGHTS_CONSERVING); an
+/// analytic mortar side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid nodes; a law of one's own; a layer
+/// between the surfaces (stickslip_interface_set_layer); parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE); nodes
+/// that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes (stickslip_interface_set_committed) and
+/// friction; condensation; heat; derivatives by positions of t_n and by parameters.
 #define STICKSLIP_DECISION_POINTS 1
 
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
@@ -2733,8 +2727,7 @@ int32_t stickslip_node_equilibrium(const struct stickslip_node *node,
 /// the history: set them again after a restart, before its import. Not of an analytic mortar side, whose shape or place says the
 /// same. On several processes each handle needs those of all of its nodes.
 ///
-/// Not with (UNSUPPORTED): persistent weights (STICKSLIP_WEIGHTS_PERSISTENT); conserving weights
-/// (STICKSLIP_WEIGHTS_CONSERVING).
+/// Not with (UNSUPPORTED): conserving weights (STICKSLIP_WEIGHTS_CONSERVING).
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, UNSUPPORTED, and where pairs are sought anew those of `stickslip_interface_set_previous`.
 /// Cost: a copy; where the largest offsets change, one search. Allocates.
@@ -2938,9 +2931,8 @@ int32_t stickslip_interface_set_law_states(struct stickslip_interface *interface
 /// import. Its numbers may change from step to step; where wear or a bond comes or goes its states begin at 0, and no commit before it can be
 /// undone. Offsets, which are the host's, are there beside it.
 ///
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); persistent weights
-/// (STICKSLIP_WEIGHTS_PERSISTENT); tied surfaces (STICKSLIP_FRICTION_TIED); conserving weights
-/// (STICKSLIP_WEIGHTS_CONSERVING); derivatives by positions of t_n and by parameters.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); tied surfaces (STICKSLIP_FRICTION_TIED);
+/// conserving weights (STICKSLIP_WEIGHTS_CONSERVING); derivatives by positions of t_n and by parameters.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INVALID_VALUE (a number; wear or a bond without friction, which have no
 /// slip), UNSUPPORTED (see above), and those of a search, where pairs must be sought farther or deeper.
@@ -2959,8 +2951,7 @@ int32_t stickslip_interface_set_layer(struct stickslip_interface *interface,
 /// to the caller's arrays. Of a part of an interface (`owned`) they are what its own nodes give, to be added up like forces. In
 /// plane models they are of the thickness, in axisymmetric ones of the whole ring.
 ///
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); conserving weights
-/// (STICKSLIP_WEIGHTS_CONSERVING).
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS).
 ///
 /// Errors: as `stickslip_interface_residual` without sums; INVALID_VALUE (a member of heat), NOT_FINITE (temperatures; a result that
 /// overflows), UNSUPPORTED.
@@ -2983,7 +2974,7 @@ int32_t stickslip_interface_heat(struct stickslip_interface *interface,
 ///
 /// x1, x2, lambda, heat, temperatures1, temperatures2: as for `stickslip_interface_heat`. equations1 (n1), equations2 (n2): of the temperatures, one a node, in
 /// the index base; -1: prescribed. which: STICKSLIP_HEAT_TEMPERATURES, or STICKSLIP_HEAT_ALL: with columns of the displacements and
-/// multipliers that the interface was created with. Outputs: rows, columns, values (capacity each), count. With all three arrays
+/// multipliers that the interface was created with, which conserving weights do not have. Outputs: rows, columns, values (capacity each), count. With all three arrays
 /// NULL only count is written, and capacity is not read. Entries of [F L/(T K)], [F/T], [L^3/T]. After NOT_FINITE because a value
 /// overflows, values mean nothing.
 ///

@@ -103,7 +103,6 @@ static PetscErrorCode check(Model *model, Run *run, PetscBool last)
   PetscFunctionBegin;
   PetscCall(PetscTime(&start));
   PetscCall(slide_check(contact, &newton->slid, newton->why, sizeof(newton->why)));
-  if (!newton->why[0]) PetscCall(kept_check(contact, newton->why, sizeof(newton->why)));
   if (!newton->why[0]) PetscCall(unseen_check(contact, last, &run->late, &newton->slid, newton->why, sizeof(newton->why)));
   if (!newton->why[0]) PetscCall(newly_check(contact, newton->why, sizeof(newton->why)));
   newton->refused_commit = (PetscBool)(newton->why[0] != 0);
@@ -199,7 +198,6 @@ static PetscErrorCode accept(Model *model, Run *run)
   PetscCall(sensitivity_accept(&model->solve));
   equilibrium_accept(&model->contact);
   PetscCall(slide_accept(&model->contact));
-  PetscCall(kept_accept(&model->contact));
   PetscCall(unseen_accept(&model->contact));
   condensed_accept(&model->contact);
   PetscCall(contact_share_out(&model->contact));

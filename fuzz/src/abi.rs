@@ -406,7 +406,7 @@ fn options(bytes: &mut Bytes, base: i64) -> (Struct<stickslip_options>, Box<stic
     let mut m = Box::new(unsafe { std::mem::zeroed::<stickslip_method>() });
     m.struct_size = size_of::<stickslip_method>() as u64;
     m.form = bytes.choice(2);
-    m.weights = bytes.choice(5);
+    m.weights = bytes.choice(4);
     for _ in 0..bytes.below(4) {
         match bytes.below(13) {
             0 => m.slip = bytes.choice(3),

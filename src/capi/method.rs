@@ -24,8 +24,8 @@ pub const STICKSLIP_SLIP_OBJECTIVE: i32 = 0;
 /// P(g[n_n,x] - g[n_n,x_n]).
 pub const STICKSLIP_SLIP_INCREMENT: i32 = 1;
 /// P g[n_n,x]: the paper's literal (12); drifts on curved interfaces.
-/// Not with (UNSUPPORTED): persistent weights (STICKSLIP_WEIGHTS_PERSISTENT); points that decide (STICKSLIP_DECISION_POINTS)
-/// and friction; conserving weights (STICKSLIP_WEIGHTS_CONSERVING); wear or a bond (stickslip_layer).
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS) and friction; conserving weights
+/// (STICKSLIP_WEIGHTS_CONSERVING); wear or a bond (stickslip_layer).
 pub const STICKSLIP_SLIP_PAPER: i32 = 2;
 /// Of now; with STICKSLIP_DECISION_POINTS and friction, or an analytic surface, those of the last commit. Default.
 pub const STICKSLIP_WEIGHTS_AUTO: i32 = 0;
@@ -35,11 +35,6 @@ pub const STICKSLIP_WEIGHTS_CURRENT: i32 = 1;
 pub const STICKSLIP_WEIGHTS_COMMITTED: i32 = 2;
 /// Weights, normals and areas frozen at the first configuration: small displacements.
 pub const STICKSLIP_WEIGHTS_REFERENCE: i32 = 3;
-/// Weights frozen at the last commit, and what overlaps there counts as closed: a step need not part it. The work of the contact forces over a
-/// step is then never positive, whatever slides and turns: for dynamics.
-/// Not with (UNSUPPORTED): the paper's slip measure (STICKSLIP_SLIP_PAPER); points that decide (STICKSLIP_DECISION_POINTS);
-/// a layer between the surfaces (stickslip_interface_set_layer); offsets; derivatives by positions of t_n and by parameters.
-pub const STICKSLIP_WEIGHTS_PERSISTENT: i32 = 4;
 /// Weights and normals of now, and gaps that are functions of the places alone. A step closes them up to what the last one has left, and its
 /// forces work exactly what they change by: nothing gains and nothing sinks, whatever slides and turns. For dynamics whose displacements follow
 /// the mean of the velocities. Multipliers and `normal` are along the normals half way between t_n and now (docs/formulation.md 21).
@@ -47,8 +42,8 @@ pub const STICKSLIP_WEIGHTS_PERSISTENT: i32 = 4;
 /// the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (method.element_points); nodes that others
 /// carry (weak_coverage > 0, the default of dual multipliers); an analytic mortar side whose frame has equations; normals of
 /// the host; offsets; a layer between the surfaces (stickslip_interface_set_layer); a law of one's own; orthotropic
-/// friction; nodes that handles share (owned has STICKSLIP_NODE_SHARED); condensation; sums of several handles; heat;
-/// derivatives by positions of t_n and by parameters.
+/// friction; nodes that handles share (owned has STICKSLIP_NODE_SHARED); condensation; sums of several handles; derivatives
+/// of heat by displacements and multipliers; derivatives by positions of t_n and by parameters.
 pub const STICKSLIP_WEIGHTS_CONSERVING: i32 = 5;
 /// Of now, unless weights are frozen or the host gives normals: then of the last commit. Default.
 pub const STICKSLIP_NORMALS_AUTO: i32 = 0;
@@ -73,7 +68,7 @@ pub const STICKSLIP_SHORTCUT_APART: i32 = 4;
 /// Nodes that nothing can cover before the next commit (no mortar facet passes the filters with a facet around them), and
 /// all while the surfaces are apart: no law, row -lambda / r; the former's tangent block is its diagonal.
 pub const STICKSLIP_SHORTCUT_UNCOVERED: i32 = 8;
-/// Dual, but with STICKSLIP_SPACE_SUB or STICKSLIP_WEIGHTS_PERSISTENT standard. Default.
+/// Dual, but with STICKSLIP_SPACE_SUB or STICKSLIP_WEIGHTS_CONSERVING standard. Default.
 pub const STICKSLIP_BASIS_AUTO: i32 = 0;
 /// Standard shape functions for the multiplier (the paper's): tractions oscillate beside edges and on curved surfaces.
 /// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); condensation.
@@ -130,13 +125,13 @@ pub const STICKSLIP_DECISION_NODES: i32 = 0;
 /// on it, by what vanishes with the facets' size. An augmentation beside it takes the place of r = 0.9 E* / h_A alone; r is then part of the
 /// answer, too.
 /// Not with (UNSUPPORTED): tied surfaces (STICKSLIP_FRICTION_TIED); friction and weights of now (STICKSLIP_WEIGHTS_CURRENT);
-/// friction and the paper's slip measure (STICKSLIP_SLIP_PAPER); standard multipliers (STICKSLIP_BASIS_STANDARD); persistent
-/// weights (STICKSLIP_WEIGHTS_PERSISTENT); the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps
-/// (method.element_points); nodes that others carry (weak_coverage > 0, the default of dual multipliers); conserving weights
-/// (STICKSLIP_WEIGHTS_CONSERVING); an analytic mortar side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid
-/// nodes; a law of one's own; a layer between the surfaces (stickslip_interface_set_layer); parts of an interface (owned has
-/// STICKSLIP_NODE_ELSEWHERE); nodes that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes
-/// (stickslip_interface_set_committed) and friction; condensation; heat; derivatives by positions of t_n and by parameters.
+/// friction and the paper's slip measure (STICKSLIP_SLIP_PAPER); standard multipliers (STICKSLIP_BASIS_STANDARD); the
+/// augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (method.element_points); nodes that others
+/// carry (weak_coverage > 0, the default of dual multipliers); conserving weights (STICKSLIP_WEIGHTS_CONSERVING); an
+/// analytic mortar side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid nodes; a law of one's own; a layer
+/// between the surfaces (stickslip_interface_set_layer); parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE); nodes
+/// that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes (stickslip_interface_set_committed) and
+/// friction; condensation; heat; derivatives by positions of t_n and by parameters.
 pub const STICKSLIP_DECISION_POINTS: i32 = 1;
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
 pub const STICKSLIP_ROW_SCALE_FORCE: i32 = 0;
@@ -294,11 +289,16 @@ impl stickslip_method {
     /// What is not AUTO.
     fn wishes(&self, small_displacements: bool) -> Result<Wishes> {
         let bases = [None, Some(MultiplierBasis::Standard), Some(MultiplierBasis::Dual)];
-        let [current, committed, reference, persistent, conserving] =
-            [Weights::Current, Weights::Committed, Weights::Reference, Weights::Persistent, Weights::Conserving]
-                .map(Some);
-        let all = [None, current, committed, reference, persistent, conserving];
-        let mut weights = choose(self.weights, "method.weights", &all, 6)?;
+        let [current, committed, reference, conserving] =
+            [Weights::Current, Weights::Committed, Weights::Reference, Weights::Conserving].map(Some);
+        let mut weights = match self.weights {
+            STICKSLIP_WEIGHTS_CONSERVING => conserving,
+            weights => choose(weights, "method.weights", &[None, current, committed, reference], 4).map_err(|_| {
+                let text =
+                    text!("method.weights is {weights}; the header names 0 to 3 and {STICKSLIP_WEIGHTS_CONSERVING}");
+                Error::new(Kind::InvalidValue, text)
+            })?,
+        };
         if small_displacements {
             if weights.is_some() && weights != reference {
                 let text = "options.small_displacements is 1, but method.weights asks for others than STICKSLIP_WEIGHTS_REFERENCE; leave one of them 0";

@@ -35,8 +35,7 @@ pub const STICKSLIP_SIDE_MORTAR: i32 = 1;
 /// the history: set them again after a restart, before its import. Not of an analytic mortar side, whose shape or place says the
 /// same. On several processes each handle needs those of all of its nodes.
 ///
-/// Not with (UNSUPPORTED): persistent weights (STICKSLIP_WEIGHTS_PERSISTENT); conserving weights
-/// (STICKSLIP_WEIGHTS_CONSERVING).
+/// Not with (UNSUPPORTED): conserving weights (STICKSLIP_WEIGHTS_CONSERVING).
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, UNSUPPORTED, and where pairs are sought anew those of `stickslip_interface_set_previous`.
 /// Cost: a copy; where the largest offsets change, one search. Allocates.

@@ -256,6 +256,11 @@ impl<const N: usize> Cache<N> {
         Ok(())
     }
 
+    /// With conserving weights: the normals half way, along which the answers are.
+    pub fn turn_half_way(&self, setup: &Setup<N>, step: &mut Step) -> Result<()> {
+        if self.is_half_way { follow(setup, step, &self.conserving.mean.x1) } else { Ok(()) }
+    }
+
     /// With conserving weights: the gaps at x and half way, what the nodes do, and in `sums` what the law is asked with. The normals are
     /// those half way from here on.
     fn conserve(&mut self, setup: &Setup<N>, step: &mut Step, x: (&[Vec3], &[Vec3])) -> Result<()> {
@@ -355,11 +360,7 @@ impl<const N: usize> Cache<N> {
             None => {
                 self.arrive(setup, step, x, extent)?;
                 if self.answers.are_known && !self.answers.shared && self.answers.is_at(x, lambda) {
-                    return if setup.options.conserves() && !self.is_apart() {
-                        follow(setup, step, &self.conserving.mean.x1)
-                    } else {
-                        Ok(())
-                    };
+                    return self.turn_half_way(setup, step);
                 }
                 self.find_sums(Given { setup, step }, x, extent)?;
                 self.answers.are_known = false;
@@ -373,6 +374,9 @@ impl<const N: usize> Cache<N> {
         let active = self.kept.scope.map(|_| &self.kept.active);
         let answers = &mut self.answers;
         respond((Given { setup, step }, active), lambda, &answers.sums, scope, &mut answers.responses)?;
+        if self.is_half_way {
+            conserving::tell(&self.conserving, &mut answers.responses.nodes);
+        }
         let counts = answers.responses.counts;
         self.work.counters.nodes_evaluated += counts.total() - counts.left_out;
         self.work.counters.nodes = counts;

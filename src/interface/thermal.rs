@@ -76,7 +76,7 @@ impl<const N: usize> Contact<N> {
         t: Temperatures,
         with_motion: bool,
     ) -> Result<Vec<Row>> {
-        self.setup.refuse(&[(Feature::Heat, true)])?;
+        self.setup.refuse(&[(Feature::Heat, true), (Feature::HeatMotion, with_motion)])?;
         let (one, two) = self.setup.surfaces();
         for (name, values, needed) in
             [("temperatures1", t.sides[0], one.len()), ("temperatures2", t.sides[1], two.len())]
@@ -90,6 +90,7 @@ impl<const N: usize> Contact<N> {
         self.cache.respond(&self.setup, &mut self.step, at, lambda, None)?;
         // Heat crosses gaps, too: where the surfaces are apart and forces need no pairs.
         self.cache.integrate(&self.setup, &mut self.step, at, Extent::Part)?;
+        self.cache.turn_half_way(&self.setup, &mut self.step)?;
         let surfaces = self.setup.surfaces();
         let previous = with_motion && self.setup.effects.law.slips;
         let history = &self.step.history;

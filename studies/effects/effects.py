@@ -120,7 +120,7 @@ DRIVER = [
     ("+ heat, also of friction, that bodies expand by", (*SLIDING, *WARM, "-contact_friction_heat", "0.5", "-heat_coupling", "two_way", "-block_expansion", "1e-6")),
     ("+ restart files", (*SLIDING, "-output_restart_every", "1")),
     ("+ dynamics", (*SLIDING, *MASS)),
-    ("+ dynamics, persistent weights", (*SLIDING, *MASS, "-contact_weights", "persistent")),
+    ("+ dynamics, weights of now", (*SLIDING, *MASS, "-contact_weights", "current")),
     ("+ dynamics, a rigid body that turns freely", (*SLIDING, *MASS, *TURNED, "-tool_mass", "1", "-tool_inertia", "1,2,3", "-tool_spin", "0,0,0.1")),
     ("law: cohesion", (*SLIDING, *law("cohesion", "-contact_cohesion", "0.01"))),
     ("law: Tresca's", (*FACETS, *LARGE, *DEFORMABLE, *law("tresca", "-contact_shear_limit", "0.2"))),

@@ -31,7 +31,7 @@ ROUND_OFF = 1e-13  # relative to the forces of the step
 ASYMPTOTIC = 0.1  # a residual that falls by less is still looking for the active set
 
 # What the library refuses: its words speak of constants of C.
-PERSISTENT_POINTS = ("-base_weights", "persistent", "-base_decision", "points", "-base_basis", "dual")
+AUGMENTED_POINTS = ("-base_form", "augmented", "-base_decision", "points", "-base_basis", "dual")
 FOUNDATIONS = {"mesh": "", "facet": "_facet"}
 SPLITS = {"1+1": 2, "2+2": 4, "5+5": 10, "10+10": 20}
 COLD, WARM = ("-steps_predictor", "false"), ("-steps_predictor", "true")
@@ -234,8 +234,8 @@ def errors(verdicts, driver):
     run = driver.run("klarbring", "-floor_lower", "20,-1,-1", "-floor_upper", "30,2,0", label="no_overlap")
     said = "contact: Of 4 non-mortar nodes 0 are covered" in run.text and "No facets lie over each other" in run.text
     verdicts.true("surfaces that do not meet: told at the start", said, "not an error: they may meet later")
-    run = driver.run("block_bottom_mu02", *PERSISTENT_POINTS, label="keys", expect=3)
-    said = "(`decision: points`) with persistent weights (`weights: persistent`)" in run.text and "STICKSLIP" not in run.text
+    run = driver.run("block_bottom_mu02", *AUGMENTED_POINTS, label="keys", expect=3)
+    said = "(`decision: points`) with the augmented form (`form: augmented`)" in run.text and "STICKSLIP" not in run.text
     verdicts.true("a refusal by the library: keys, no names of C", said, "a scene has keys")
     for options, code, reason in (
         (("-snes_max_it", 1), 2, "not converged"),

@@ -48,7 +48,7 @@ VARIANTS = {
     "multiplier form, committed weights": ("-contact_weights", "committed"),
     "augmented form, committed weights": ("-contact_form", "augmented", "-contact_weights", "committed"),
     "multiplier form, reference weights": ("-contact_weights", "reference"),
-    "multiplier form, persistent weights": ("-contact_weights", "persistent"),
+    "multiplier form, conserving weights": ("-contact_weights", "conserving"),
     "multiplier form, slip by increment": ("-contact_slip", "increment"),
     "multiplier form, quadrilaterals": QUADS,
     "augmented form, quadrilaterals": ("-contact_form", "augmented", *QUADS),

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from dynamics import ENERGY_BOUND, ORDER_BOUND, PERSISTENT, energy, total
+from dynamics import ENERGY_BOUND, ORDER_BOUND, energy, total
 from jacobian import whole_matrix
 from restart import BITS, BOX, COSTS, KEEP, pad
 from scene import write
@@ -180,7 +180,7 @@ def falling(start):
         upper={**BOX, "density": 2, "lower": [0.1, 0.1, 0.005], "upper": [1.1, 0.9, 0.505]},
         lower={**BOX, "density": 2},
         dynamics={"rho_inf": 1},
-        contact={"friction": 0.2, **PERSISTENT},
+        contact={"friction": 0.2},
         supports=["ground", "hold"] if start else ["ground"],
         loads=["weight"],
         weight={"body": "upper", "gravity": [0.5, 0, -GRAVITY], "curve": [start, 1, start + 0.1, 1] if not start else [start - 1e-3, 0, start, 1]},

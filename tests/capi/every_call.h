@@ -211,10 +211,10 @@ static inline int32_t every_constraints(every *c) {
   const int64_t node = 4;
   return stickslip_interface_set_constraints(c->h.s.interface, 1, &node, across);
 }
-/* How the offset of a carried node turns is not in the tangent, and what surfaces overlap by may not count as closed: refused. */
+/* How the offset of a carried node turns is not in the tangent, and forces of conserving weights know no offsets: refused. */
 static inline int every_offsets_unsupported(const scene *s) {
   const stickslip_method *o = &s->method;
-  if (o->weights == STICKSLIP_WEIGHTS_PERSISTENT || o->weights == STICKSLIP_WEIGHTS_CONSERVING) return 1;
+  if (o->weights == STICKSLIP_WEIGHTS_CONSERVING) return 1;
   const int carries = o->weak_coverage > 0.0 || (o->weak_coverage == 0.0 && o->multiplier_basis == STICKSLIP_BASIS_DUAL);
   return o->normals == STICKSLIP_NORMALS_CURRENT && s->options.friction != STICKSLIP_FRICTION_NONE && carries;
 }
@@ -245,7 +245,7 @@ static inline int every_has_law(const every *c) { return c->h.s.options.friction
 /* Tied surfaces do not give way. */
 static inline int every_goes_with_layers(const every *c) {
   const int32_t weights = c->h.s.method.weights;
-  return c->h.s.options.friction != STICKSLIP_FRICTION_TIED && weights != STICKSLIP_WEIGHTS_PERSISTENT && weights != STICKSLIP_WEIGHTS_CONSERVING &&
+  return c->h.s.options.friction != STICKSLIP_FRICTION_TIED && weights != STICKSLIP_WEIGHTS_CONSERVING &&
          c->h.s.method.decision != STICKSLIP_DECISION_POINTS;
 }
 static inline int32_t every_law(every *c) {
@@ -467,7 +467,7 @@ static inline int32_t every_condensed_values(every *c) {
 static inline int every_has_derivatives(const every *c) {
   const stickslip_method *o = &c->h.s.method;
   return o->form == STICKSLIP_FORM_MULTIPLIER && o->weights != STICKSLIP_WEIGHTS_COMMITTED &&
-         o->weights != STICKSLIP_WEIGHTS_PERSISTENT && o->weights != STICKSLIP_WEIGHTS_CONSERVING && o->decision != STICKSLIP_DECISION_POINTS;
+         o->weights != STICKSLIP_WEIGHTS_CONSERVING && o->decision != STICKSLIP_DECISION_POINTS;
 }
 static inline int32_t every_previous_tangent(every *c) {
   const scene *s = &c->h.s;

@@ -25,7 +25,6 @@ static const kind kinds[] = {
     {.name = "shear limit", .friction = STICKSLIP_FRICTION_TRESCA, .shear_limit = 0.5},
     {.name = "committed weights", .weights = STICKSLIP_WEIGHTS_COMMITTED},
     {.name = "reference weights", .weights = STICKSLIP_WEIGHTS_REFERENCE},
-    {.name = "persistent weights", .weights = STICKSLIP_WEIGHTS_PERSISTENT},
     {.name = "weak coverage", .weak_coverage = 0.5, .slide = 0.9},
     {.name = "weak coverage, augmented", .weak_coverage = 0.5, .slide = 0.9, .form = STICKSLIP_FORM_AUGMENTED},
     {.name = "dual", .basis = STICKSLIP_BASIS_DUAL},

@@ -376,7 +376,7 @@ static void sequence(int compared) {
   scene *s = &h.s;
   scene_init(s);
   s->method.form = (int32_t)draw(2);
-  s->method.weights = (int32_t)draw(5);
+  s->method.weights = (int32_t)draw(4);
   s->method.slip = (int32_t)draw(3);
   s->method.new_contact = (int32_t)draw(2);
   s->method.quadrature = (int32_t)draw(2);

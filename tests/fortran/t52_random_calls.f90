@@ -292,7 +292,7 @@ contains
     logical :: accepted, changed, again
     call scene_init(h%s)
     h%s%method%form = random(2)
-    h%s%method%weights = random(5)
+    h%s%method%weights = random(4)
     h%s%method%slip = random(3)
     h%s%method%new_contact = random(2)
     h%s%method%quadrature = random(2)

@@ -42,10 +42,11 @@ impl<const N: usize> Scene<N> {
         Scene { contact: s.contact, before, x1: s.x1, x2: s.x2, lambda: s.lambda, name }
     }
 
-    /// nu_A . g_A with weights and normals of these places, by an interface that knows nothing of steps.
-    fn gaps(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Vec<f64> {
+    /// nu_A . g_A and what is covered, with weights and normals of these places.
+    fn gaps(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Vec<[f64; 2]> {
         let sums = self.contact.sums(x1, x2).unwrap();
-        (0..sums.len()).map(|a| self.contact.normal(a).unwrap().dot(&sums[a].gap_now)).collect()
+        let of = |a: usize| [self.contact.normal(a).unwrap().dot(&sums[a].gap_now), sums[a].coverage];
+        (0..sums.len()).map(of).collect()
     }
 }
 
@@ -85,6 +86,8 @@ fn identities<const N: usize>(mut s: Scene<N>) {
     let (x1, x2) = (s.x1.clone(), s.x2.clone());
     let before = s.gaps(&b1, &b2);
     let now = s.gaps(&x1, &x2);
+    let half = |from: &[Vec3], to: &[Vec3]| from.iter().zip(to).map(|(a, b)| (a + b) * 0.5).collect::<Vec<_>>();
+    let mean = s.gaps(&half(&b1, &x1), &half(&b2, &x2));
     let r = s.contact.residual(&x1, &x2, &s.lambda, None).unwrap();
     let forces = r.nonmortar.iter().chain(&r.mortar);
     let (from, to) = (b1.iter().chain(&b2), x1.iter().chain(&x2));
@@ -97,12 +100,13 @@ fn identities<const N: usize>(mut s: Scene<N>) {
             if sums[a].coverage == 0.0 {
                 return 0.0;
             }
+            let change = mean[a][1] * (now[a][0] / now[a][1] - before[a][0] / before[a][1]);
             if N == 1 {
-                return l[0] * (now[a] - before[a]);
+                return l[0] * change;
             }
             let l = Vec3::from_fn(|i, _| l[i]);
             let normal = nu.dot(&l);
-            normal * (now[a] - before[a]) + (l - nu * normal).dot(&sums[a].gap_previous)
+            normal * change + (l - nu * normal).dot(&sums[a].gap_previous)
         })
         .collect();
     assert!(answers.len() == now.len());
@@ -188,6 +192,7 @@ fn the_bound_is_where_the_last_step_has_ended() {
         let (nu, x2) = (s.contact.normal(4).unwrap(), s.x2.clone());
         let x1: Vec<_> = s.x1.iter().map(|x| x - nu * PUSHED).collect();
         let reached = s.gaps(&x1, &x2);
+        let reached: Vec<f64> = reached.iter().map(|gap| gap[0]).collect();
         assert!(reached.iter().any(|g| *g < 0.0), "{}: nothing overlaps", s.name);
         s.contact.commit(&x1, &x2, &s.lambda, None).unwrap();
         let none = vec![SVector::<f64, 1>::zeros(); s.lambda.len()];

@@ -207,6 +207,40 @@ fn the_same_with_one_multiplier_carried_nodes_points_and_offsets() {
     }
 }
 
+/// With conserving weights by temperatures alone: pressures and slip are those half way, weights of now.
+#[test]
+fn with_conserving_weights_heat_is_conserved() {
+    for basis in BASES {
+        let of = Options { basis, weights: Weights::Conserving, weak_coverage: NO_WEAK_COVERAGE, ..options() };
+        let mut t = moved(&of, [Cells::Quads, Cells::Triangles], FLAT, 3);
+        let mut scene = Scene::new(&mut t.interface, [&t.x1, &t.x2], &t.lambda, (3, 3));
+        scene.balance(&ALL, &format!("{basis:?}"));
+        let (at, k) = (scene.unknowns(), scene.tangent(&ALL, false));
+        let (n, rows) = (at.len(), k.len() / at.len());
+        let noise = NOISE * max_abs(scene.residual(&at, &ALL));
+        for j in n - rows..n {
+            let shifted =
+                |by: f64| at.iter().enumerate().map(|(i, v)| if i == j { v + by } else { *v }).collect::<Vec<_>>();
+            let (more, less) = (scene.residual(&shifted(STEP), &ALL), scene.residual(&shifted(-STEP), &ALL));
+            for i in 0..rows {
+                let error = (k[i * n + j] - (more[i] - less[i]) / (2.0 * STEP)).abs();
+                assert!(error <= DIFFERENCES * max_abs(k.iter().copied()) + noise, "{basis:?}: {error:e}");
+            }
+        }
+        scene.put(&at);
+        let (heat, answers) = (scene.heat(&ALL), scene.contact.evaluate(&scene.x[0], &scene.x[1], &scene.lambda, None));
+        let pressures: Vec<f64> = (0..heat.nodes.len())
+            .map(|a| scene.contact.normal(a).unwrap().dot(&answers.as_ref().unwrap().1[a].traction))
+            .collect();
+        for (node, along) in heat.nodes.iter().zip(pressures).filter(|((node, _), _)| node.area > 0.0) {
+            assert!(
+                (node.0.pressure - (-along).max(0.0)).abs() <= ROUNDING * along.abs(),
+                "{basis:?}: along the normals half way"
+            );
+        }
+    }
+}
+
 #[test]
 fn the_same_with_every_measure_of_slip() {
     for (slip, normals) in

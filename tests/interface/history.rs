@@ -18,7 +18,7 @@ fn options_of(form: Form, weights: Weights) -> Options {
 }
 
 fn all_options() -> Vec<Options> {
-    let weights = [Weights::Current, Weights::Committed, Weights::Reference, Weights::Persistent];
+    let weights = [Weights::Current, Weights::Committed, Weights::Reference];
     [Form::Multiplier, Form::Augmented].iter().flat_map(|&f| weights.map(|w| options_of(f, w))).collect()
 }
 
@@ -296,7 +296,7 @@ fn a_history_of_an_older_layout_is_refused_by_name() {
 
 #[test]
 fn slip_accumulates_over_steps() {
-    for weights in [Weights::Current, Weights::Committed, Weights::Reference, Weights::Persistent] {
+    for weights in [Weights::Current, Weights::Committed, Weights::Reference] {
         let one = grid(2, 2, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
         let two = grid(3, 3, [-1.0, -1.0], [3.0, 2.0], 0.0, true, Cells::Quads);
         let mut i = interface(&one, &two, options_of(Form::Multiplier, weights));

@@ -38,7 +38,6 @@ mod overlap;
 mod parts;
 mod parts_condensed;
 mod patch;
-mod persistent;
 mod plan;
 mod point_friction;
 mod point_memory;

@@ -73,9 +73,9 @@ fn an_overlap_that_counts_as_closed_is_told() {
     let one = grid(2, 2, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
     let two = grid(1, 1, [-1.0, -1.0], [2.0, 2.0], 0.0, true, Cells::Quads);
     for (depth, weights, told) in [
-        (0.01, Weights::Persistent, true),
-        (1e-7, Weights::Persistent, false),
-        (-0.01, Weights::Persistent, false),
+        (0.01, Weights::Conserving, true),
+        (1e-7, Weights::Conserving, false),
+        (-0.01, Weights::Conserving, false),
         (0.01, Weights::Committed, false),
     ] {
         let mut one = Mesh { x: one.x.iter().map(|x| x - Vec3::z() * depth).collect(), facets: one.facets.clone() };

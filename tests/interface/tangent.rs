@@ -40,7 +40,6 @@ fn variants() -> Vec<Options> {
                 all.push(Options { form, weights, slip, ..options() });
             }
         }
-        all.push(Options { form, weights: Weights::Persistent, ..options() });
     }
     all
 }

@@ -132,6 +132,9 @@ typedef struct {
   Offsets        offsets;
   stickslip_options options; /* its method is the next member */
   stickslip_method  method;
+  stickslip_method  otherwise;     /* conserving.c: the method but for weights that conserve, if the library refuses them */
+  PetscBool         conserves;     /* they are this program's choice */
+  char              conserves_not[1024]; /* why they are not, where they would be; empty: nothing is to be said */
   stickslip_law  law;        /* in place of Coulomb's, if it is of another kind */
   stickslip_layer layer;     /* what lies between the surfaces; its table is the interface's */
   PetscInt       n_states;   /* numbers that law and layer remember of a node */
@@ -156,8 +159,6 @@ typedef struct {
   char           modulus_from[64];        /* with decisions at points: what the modulus of both bodies is made of */
   stickslip_equilibrium equilibrium;      /* of this part, as last judged (equilibrium.c) */
   Frozen                slide, turn;
-  double                kept;                 /* with persistent weights: the deepest overlap at the start, over a facet's edge */
-  Frozen                sunk;                 /* likewise: what it has grown by since */
   Frozen                overlap, apart, lag; /* over the library's scales, see unseen.c */
   PetscReal             lag_force;           /* of all nodes, over what they press with */
   PetscBool             lag_corrects;        /* a step that lags is solved again: lag.c */
@@ -223,6 +224,11 @@ PetscErrorCode homes_fetch_create(const Interface *interface, PetscInt n, const 
 PetscErrorCode homes_bcast(PetscSF sf, PetscInt width, const double from[], double to[]);
 PetscErrorCode homes_coordinates(const Interface *interface, PetscInt n, const PetscInt numbers[], double X[]);
 PetscLogDouble homes_bytes(const Interface *interface); /* that this rank keeps */
+
+/* conserving.c: the method, with the weights that a scene leaves open; once its surfaces are known; after a refusal: is it to be asked anew? */
+PetscErrorCode conserving_choose(const Contact *contact, Interface *interface);
+PetscErrorCode conserving_look(const Contact *contact, Interface *interface);
+PetscBool      conserving_yields(Contact *contact, Interface *interface);
 
 /* weak.c: what becomes of hardly covered nodes; `created`: there is a handle to be asked, and `chosen`: it is to be made anew */
 PetscErrorCode weak_choose(Interface *interface, PetscBool created, PetscBool *chosen);
@@ -511,11 +517,8 @@ PetscErrorCode lag_shows(const Contact *contact, PetscBool *shows);
 PetscErrorCode lag_take_normals(Contact *contact, PetscBool may, PetscBool *changed);
 PetscErrorCode lag_set(const Interface *interface, stickslip_interface *handle, int32_t *refused);
 PetscErrorCode lag_forget(Contact *contact);
-/* kept.c: what persistent weights leave of overlaps: of that at the start, and across what gap surfaces are tied, after contact_gather(); by how
- * much overlaps have grown since, at a converged state: why the step does not count; and told, where it does */
+/* kept.c: overlaps at the start that conserving weights leave, and across what gap surfaces are tied, after contact_gather() */
 PetscErrorCode kept_tell(const Contact *contact, Interface *interface);
-PetscErrorCode kept_check(Contact *contact, char why[], size_t length);
-PetscErrorCode kept_accept(Contact *contact);
 /* chords.c: facets that do not touch though the curved surfaces may; there, too */
 PetscErrorCode chords_tell(const Interface *interface);
 

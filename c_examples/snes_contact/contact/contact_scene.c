@@ -175,7 +175,7 @@ static PetscErrorCode begin_options(PetscBool paper, Interface *interface)
 /* `basis`, `normals`, `weights`, `multiplier_space`, `slip`, `form`, `new_contact`, the augmentation and the search. */
 static void read_method(Scene *scene, Interface *interface)
 {
-  static const char *const weights[]      = {"auto", "current", "committed", "reference", "persistent", "conserving", NULL};
+  static const char *const weights[]      = {"auto", "current", "committed", "reference", "conserving", NULL};
   static const char *const slips[]        = {"objective", "increment", "paper", NULL};
   static const char *const forms[]        = {"multiplier", "augmented", NULL};
   static const char *const new_contacts[] = {"frictionless", "friction", NULL};
@@ -235,7 +235,7 @@ static void read_method(Scene *scene, Interface *interface)
   method->normals          = (int32_t)normal;
   method->turn_max         = turn_max;
   if (turn_max > 0) interface->turn.most = turn_max;
-  method->weights         = (int32_t)weight;
+  method->weights         = weight > STICKSLIP_WEIGHTS_REFERENCE ? STICKSLIP_WEIGHTS_CONSERVING : (int32_t)weight;
   method->slip            = (int32_t)slip;
   method->form            = (int32_t)form;
   method->new_contact     = (int32_t)new_contact;
@@ -357,13 +357,14 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact)
     read_effects(scene, interface);
     decision_read(scene, interface);
     read_method(scene, interface);
-    PetscCallStickslip(stickslip_options_method(&interface->options, &interface->method));
+    PetscCall(conserving_choose(contact, interface));
     read_accuracy(scene, interface);
     PetscCall(offsets_read(scene, contact->physics, interface));
   }
   strings_destroy(n_named, &names);
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     PetscCall(read_nodes(scene, contact, &contact->interfaces[i]));
+    PetscCall(conserving_look(contact, &contact->interfaces[i]));
     PetscCall(refuse_twice(scene, contact, i));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -239,6 +239,12 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
     PetscCall(create_homes(contact, interface));
     if (size > 1 && !interface->uncut) PetscCall(halo_watch(contact, interface));
     PetscCall(create_parts(contact, i, status));
+    if (*status && conserving_yields(contact, interface)) {
+      PetscCall(part_destroy(&interface->part));
+      PetscCall(halo_end(&interface->halo));
+      PetscCall(PetscFree(interface->owner));
+      PetscCall(create_parts(contact, i, status));
+    }
     if (*status) break;
     if (!interface->skin) PetscCall(check_facing(scene, quiet, interface, mesh->rank));
     if (interface->blunted && !quiet)

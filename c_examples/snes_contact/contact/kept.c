@@ -1,15 +1,11 @@
 /* What the surfaces keep of where they are at the start, and may not be meant; it is told by its node and its size.
  *
- * With `weights: persistent` what overlaps at the start of a step counts as closed (docs/formulation.md 4.9), and what the surfaces overlap
- * by at t = 0 as well: it presses nothing, and stays. An overlap of the mesh is a fit, or a mistake. A step leaves overlaps of the second
- * order behind. Where surfaces slide on, they add up, one way: a body sinks, however short the steps. That is told, too, and stops the run
- * where it is much. Tied surfaces keep the gap between them, however wide: what is tied across it moves as one, as if a rigid body filled it. */
+ * With `weights: conserving` what overlaps at the start of a step counts as closed (docs/formulation.md 21), and what the surfaces overlap
+ * by at t = 0 as well: it presses nothing, and stays. An overlap of the mesh is a fit, or a mistake. Tied surfaces keep the gap between them, however wide: what is tied across it moves as one, as if a rigid body filled it. */
 #include "contact/contact.h"
 
 /* What is told, over the longest edge around the node: coordinates of single precision are off by as much on a mesh of a hundred facets. */
 static const PetscReal KEPT_TOLD = 1e-5;
-/* By how much overlaps may have grown since the start, over the longest edge, before that is told; and before no step counts. */
-static const PetscReal SUNK_TOLD = 0.01, SUNK_MOST = 0.1;
 /* The gap of tied surfaces that is told, over the same: chords of circles in eight pieces that do not match are as far apart. */
 static const PetscReal TIED_TOLD = 0.1;
 
@@ -88,65 +84,19 @@ static PetscErrorCode tied_tell(const Contact *contact, Interface *interface)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscBool keeps(const Interface *interface)
-{
-  return (PetscBool)(interface->method.weights == STICKSLIP_WEIGHTS_PERSISTENT && !is_tied(interface));
-}
-
 PetscErrorCode kept_tell(const Contact *contact, Interface *interface)
 {
   Overlap overlap;
   PetscFunctionBegin;
   if (is_tied(interface)) PetscCall(tied_tell(contact, interface));
-  if (!keeps(interface)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (is_tied(interface) || interface->method.weights != STICKSLIP_WEIGHTS_CONSERVING) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(measure(contact->mesh, interface, &overlap));
-  interface->kept = overlap.part;
   if (overlap.part <= KEPT_TOLD) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                          "snes_contact: warning: the surfaces of %s overlap at the start, by %.3g at node %d at (%g, %g, %g), %.2g of the longest edge "
-                         "there. With `weights: persistent` what overlaps counts as closed: it presses nothing, and stays until the node opens. Give a fit "
+                         "there. With `weights: conserving` what overlaps counts as closed: it presses nothing, and stays until the node opens. Give a fit "
                          "with an interference `weights: current`, and close an overlap of the meshes by `adjust`.\n",
                          interface->name, (double)overlap.depth, (int)overlap.vertex, (double)overlap.X[0], (double)overlap.X[1], (double)overlap.X[2],
                          (double)overlap.part));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode kept_check(Contact *contact, char why[], size_t length)
-{
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    Interface *interface = &contact->interfaces[i];
-    Frozen    *sunk      = &interface->sunk;
-    Overlap    overlap;
-    if (!keeps(interface)) continue;
-    PetscCall(measure(contact->mesh, interface, &overlap));
-    sunk->amount = overlap.part - interface->kept;
-    if (sunk->amount <= SUNK_TOLD) continue;
-    PetscCall(PetscSNPrintf(sunk->words, sizeof(sunk->words),
-                            "the surfaces of %s have sunk into each other, by %.3g at node %d at (%g, %g, %g) in the undeformed body, %.2g of the longest edge there",
-                            interface->name, (double)overlap.depth, (int)overlap.vertex, (double)overlap.X[0], (double)overlap.X[1], (double)overlap.X[2],
-                            (double)overlap.part));
-    if (sunk->amount > SUNK_MOST)
-      PetscCall(PetscSNPrintf(why, length,
-                              "converged, but %s: with `weights: persistent` overlaps that a step leaves count as closed in the next, and add up where surfaces "
-                              "slide, however short the steps. Take `weights: conserving`",
-                              sunk->words));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The step counts. */
-PetscErrorCode kept_accept(Contact *contact)
-{
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    Interface *interface = &contact->interfaces[i];
-    if (!keeps(interface) || interface->sunk.told || interface->sunk.amount <= SUNK_TOLD) continue;
-    interface->sunk.told = PETSC_TRUE;
-    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
-                           "snes_contact: warning: at t = %.6g %s. With `weights: persistent` overlaps that a step leaves count as closed in the next, and add up "
-                           "where surfaces slide, however short the steps. `weights: conserving` lets none grow.\n",
-                           (double)contact->physics->t, interface->sunk.words));
-  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

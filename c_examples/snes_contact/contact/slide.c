@@ -1,7 +1,7 @@
 /* With frozen weights contact is sought, and forces act on the mortar side, where the surfaces were when the weights were made. A
  * step that slides farther than that shows still converges, and is wrong by about the slide. With weights of the reference normals are of
  * then, too: where a surface turns, this part of the pressure acts as a shear. How far either is, the library says
- * (stickslip_equilibrium); what is done about it is said here: steps with `weights: committed` or `persistent` are cut back, for the
+ * (stickslip_equilibrium); what is done about it is said here: steps with `weights: committed` are cut back, for the
  * next commit makes the weights anew. With `weights: reference` none does, and the run is told once. */
 #include "contact/contact.h"
 

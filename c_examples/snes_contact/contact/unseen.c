@@ -25,8 +25,6 @@ static const PetscReal LAG_MARGIN = 1.3;
 
 static const char *remedy(const Interface *interface)
 {
-  if (interface->method.weights == STICKSLIP_WEIGHTS_PERSISTENT)
-    return "With `weights: persistent` what overlaps at the start of a step counts as closed: take `weights: current`";
   if (!weights_are_of_now(interface))
     return "Frozen weights do not know where the surfaces are: take `weights: current`, or shorter steps";
   if (decision_is_points(interface) || interface->surface[1]->analytic || interface->skin) return "Facets that are coarser than the contact do not feel it: take finer ones";
@@ -72,7 +70,7 @@ static PetscReal overlap_most(const Interface *interface, PetscBool last)
 
 /* At a converged state that the interfaces have been judged at. `why`, where it does not count; `ratio`: at least how many times too
  * long the step was; `late`: no shorter one helps. Weights of the reference are for displacements too small to be seen: what they overlap by is told
- * alone. So it is with `dynamics`: no shorter step stops a tip that dents a facet before that presses, and what sinks is stopped by kept.c. */
+ * alone. So it is with `dynamics`: no shorter step stops a tip that dents a facet before that presses. */
 PetscErrorCode unseen_check(Contact *contact, PetscBool last, PetscBool *late, PetscReal *ratio, char why[], size_t length)
 {
   PetscFunctionBegin;

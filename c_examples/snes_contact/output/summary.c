@@ -32,7 +32,7 @@ static const char *form_name(const Output *output)
 }
 
 /* What weights are called in a scene, by STICKSLIP_WEIGHTS_... */
-static const char *const WEIGHTS[] = {"", "current", "committed", "reference", "persistent", "conserving"};
+static const char *const WEIGHTS[] = {"", "current", "committed", "reference", "", "conserving"};
 
 /* The interfaces that decide at points, with what goes with them whether the scene has said so or not, and what the library takes their bodies' stiffness for. */
 static PetscErrorCode add_decisions(const Output *output, cJSON *root)
@@ -53,6 +53,26 @@ static PetscErrorCode add_decisions(const Output *output, cJSON *root)
     if (!output->quiet)
       PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: decided at points, basis dual, weights %s, modulus %g (from %s)\n", interface->name,
                             WEIGHTS[interface->method.weights], interface->options.modulus, interface->modulus_from));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* With `dynamics`: the weights, and why they are not those that conserve. */
+static PetscErrorCode add_weights(const Output *output, cJSON *root)
+{
+  cJSON *all = NULL;
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < output->contact->n_interfaces && output->physics->dynamics; i++) {
+    const Interface *interface = &output->contact->interfaces[i];
+    cJSON           *json;
+    if (!all) all = cJSON_AddObjectToObject(root, "weights");
+    json = cJSON_AddObjectToObject(all, interface->name);
+    cJSON_AddStringToObject(json, "weights", WEIGHTS[interface->method.weights]);
+    if (!interface->conserves_not[0]) continue;
+    cJSON_AddStringToObject(json, "why", interface->conserves_not);
+    if (!output->quiet)
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: weights %s, for conserving ones are refused: %s\n", interface->name,
+                            WEIGHTS[interface->method.weights], interface->conserves_not));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -78,6 +98,7 @@ PetscErrorCode summary_create(Output *output, Summary **out)
   cJSON_AddNumberToObject(summary->root, "rtol", rtol);
   cJSON_AddNumberToObject(summary->root, "unknowns", unknowns);
   PetscCall(add_decisions(output, summary->root));
+  PetscCall(add_weights(output, summary->root));
   summary->steps           = cJSON_CreateArray();
   summary->failed_attempts = cJSON_CreateArray();
   if (!output->quiet)

@@ -41,7 +41,7 @@ class Options(TypedDict, total=False):
     multiplier_basis: Literal["auto", "standard", "dual"]
     #: "sub": mid nodes of quadratic facets have multipliers, too.
     multiplier_space: Literal["corner", "sub"]
-    weights: Literal["auto", "current", "committed", "reference", "persistent", "conserving"]
+    weights: Literal["auto", "current", "committed", "reference", "conserving"]
     normals: Literal["auto", "committed", "current"]
     #: A number, or "none".
     weak_coverage: float | Literal["none"]

@@ -47,7 +47,6 @@ features! {
     HostNormals "normals of the host" "leave them to the library";
     WeightsNow "weights of now (STICKSLIP_WEIGHTS_CURRENT)" "take STICKSLIP_WEIGHTS_COMMITTED or STICKSLIP_WEIGHTS_REFERENCE";
     FrozenWeights "frozen weights" "take STICKSLIP_WEIGHTS_CURRENT";
-    KeptOverlaps "persistent weights (STICKSLIP_WEIGHTS_PERSISTENT)" "take other weights";
     Conserving "conserving weights (STICKSLIP_WEIGHTS_CONSERVING)" "take other weights";
     PaperSlip "the paper's slip measure (STICKSLIP_SLIP_PAPER)" "take STICKSLIP_SLIP_OBJECTIVE or STICKSLIP_SLIP_INCREMENT";
     Friction "friction" "take STICKSLIP_FRICTION_NONE";
@@ -72,6 +71,7 @@ features! {
     Condensed "condensation" "keep multipliers as unknowns";
     InPlace "a matrix condensed in place" "take the pieces (stickslip_interface_condensed_coo), which add up over the handles";
     Heat "heat" "";
+    HeatMotion "derivatives of heat by displacements and multipliers" "solve for temperatures in turns with the mechanics";
     Derivatives "derivatives by positions of t_n and by parameters" "";
     WeightsCommitted "weights of the last commit (STICKSLIP_WEIGHTS_COMMITTED)" "take STICKSLIP_WEIGHTS_CURRENT";
     NodeHistory "a history of nodes (stickslip_interface_set_committed)" "import one of points (stickslip_interface_history_import)";

@@ -92,12 +92,10 @@ const fn numbered<const N: usize>(mut rows: [Row; N]) -> [Row; N] {
 rows! {
     // Options.
     Meaningless [NormalsNow FrozenWeights] "gaps and normals would be of different configurations" [FrozenWeights NormalsNow];
-    Meaningless [PaperSlip KeptOverlaps] "the work of friction would not be that of its slip" [PaperSlip];
     Meaningless [Points Tied] "there is nothing to decide" [Points];
     NotBuilt [Points Friction WeightsNow] "points remember a traction, and are the same within a step with frozen weights alone" [WeightsNow Points];
     Meaningless [Points Friction PaperSlip] "points remember what slipped before, and need the slip of a step" [PaperSlip];
     Meaningless [Points StandardBasis] "gaps of points are measured by dual functions" [StandardBasis];
-    NotBuilt [Points KeptOverlaps] "overlaps are kept node by node" [KeptOverlaps Points];
     Meaningless [Points Augmented] "forces of points follow sigma in either form" [Augmented];
     NotBuilt [Points ElementPoints] "" [ElementPoints];
     Meaningless [Points Carried] "no node has to be carried" [Carried];
@@ -119,12 +117,10 @@ rows! {
     Meaningless [HostNormals NormalsNow] "they would not follow the motion" [NormalsNow HostNormals];
     NotBuilt [OwnLaw Points] "it is asked at nodes" [Points];
     NotBuilt [Layer Points] "it is asked at nodes" [Points];
-    NotBuilt [Layer KeptOverlaps] "what it overlaps by at the last commit would count as closed" [KeptOverlaps];
     Meaningless [Layer Tied] "tied surfaces neither open nor slip, nor give way" [Layer Tied];
     Meaningless [LayerSlips PaperSlip] "it follows slip, which that measure makes of curved surfaces at rest" [PaperSlip];
     Meaningless [Orthotropic Lines] "a plane or axisymmetric model has one direction to slip in" [Orthotropic];
     Meaningless [MortarOffsets Analytic] "it has no nodes; move or resize the shape" [MortarOffsets];
-    NotBuilt [Offsets KeptOverlaps] "what they overlap by at the last commit would count as closed, and one that grows would press nothing" [KeptOverlaps];
     NotBuilt [Offsets Conserving] "" [Conserving];
     NotBuilt [Layer Conserving] "" [Conserving];
     NotBuilt [OwnLaw Conserving] "" [Conserving];
@@ -140,19 +136,18 @@ rows! {
     Meaningless [Condensed Shared] "one handle must know all facets around a node whose multiplier it eliminates" [Shared];
     NotBuilt [Condensed Elsewhere Quadratic] "several multipliers act on a node in the middle, and one handle must have them all" [Condensed];
     NotBuilt [Condensed Elsewhere Lines] "several multipliers act on a node in the middle, and one handle must have them all" [Condensed];
-    NotBuilt [Condensed Conserving] "forces follow the gaps of all nodes around" [Condensed Conserving];
+    Meaningless [Condensed Conserving] "their forces couple neighbours" [Condensed Conserving];
     Meaningless [InPlace Elsewhere] "a row of it belongs to one handle" [InPlace];
     Meaningless [Sums DualBasis] "a dual basis depends on all pairs of a facet, which are known within one handle only" [DualBasis];
     Meaningless [Sums Carried] "weakly covered nodes are carried within one handle only" [Carried];
     NotBuilt [Sums Conserving] "forces follow the gaps of all handles" [Conserving];
     Meaningless [SumsTangent Augmented] "it couples pairs of different handles" [Augmented];
     NotBuilt [Heat Points] "pressures are of points" [Points];
-    NotBuilt [Heat Conserving] "it passes with weights of now" [Conserving];
+    NotBuilt [HeatMotion Conserving] "they follow the positions of t_n, too" [HeatMotion Conserving];
     Meaningless [Derivatives FrozenTangent] "adjoints solve with the exact tangent" [FrozenTangent];
     Meaningless [Derivatives FrozenNormals] "adjoints solve with the exact tangent" [FrozenNormals];
     NotBuilt [Derivatives Augmented] "forces follow the positions of t_n, too" [Augmented];
     NotBuilt [Derivatives WeightsCommitted] "forces follow the positions of t_n, too" [WeightsCommitted];
-    NotBuilt [Derivatives KeptOverlaps] "what counts as closed follows the positions of t_n" [KeptOverlaps];
     NotBuilt [Derivatives Conserving] "forces follow the positions of t_n, too" [Conserving];
     NotBuilt [Derivatives Points] "points remember tractions" [Points];
     NotBuilt [Derivatives OwnLaw] "what it remembers is the host's" [OwnLaw];

@@ -17,6 +17,8 @@ pub struct Dependence {
     pub weight: f64,
     /// D of the vector g[n, x]_A.
     pub gap: Mat3,
+    /// D of what is covered.
+    pub area: Vec3,
     /// D of the sum of the corner normals around A.
     pub sum: Mat3,
 }
@@ -39,9 +41,9 @@ pub struct NodeGap {
 }
 
 impl NodeGap {
-    /// nu_A . g_A.
-    pub fn value(&self) -> f64 {
-        self.normal.dot(&self.gap)
+    /// nu_A . g_A over what is covered [L]; 0 where nothing is.
+    pub fn mean(&self) -> f64 {
+        if self.coverage > 0.0 { self.normal.dot(&self.gap) / self.coverage } else { 0.0 }
     }
 
     /// D nu_A.
@@ -49,16 +51,17 @@ impl NodeGap {
         self.turn * on.sum
     }
 
-    /// D (nu_A . g_A).
-    pub fn slope(&self, on: &Dependence) -> Vec3 {
-        on.gap.tr_mul(&self.normal) + self.turned(on).tr_mul(&self.gap)
+    /// D (nu_A . g_A) less a gap times D of what is covered.
+    pub fn slope(&self, on: &Dependence, less: f64) -> Vec3 {
+        on.gap.tr_mul(&self.normal) + self.turned(on).tr_mul(&self.gap) - on.area * less
     }
 
     /// The dependence on a node.
     pub fn on(&mut self, node: usize) -> Result<&mut Dependence> {
         let at = self.nodes.iter().position(|on| on.node == node).unwrap_or(self.nodes.len());
         if at == self.nodes.len() {
-            self.nodes.store(Dependence { node, weight: 0.0, gap: Mat3::zeros(), sum: Mat3::zeros() })?;
+            let (none, area) = (Mat3::zeros(), Vec3::zeros());
+            self.nodes.store(Dependence { node, weight: 0.0, gap: none, area, sum: none })?;
         }
         Ok(&mut self.nodes[at])
     }
@@ -115,14 +118,16 @@ impl Rigid {
     }
 }
 
-/// What a node does in a step: the discrete derivative D_A = G_A(x_m) + q z of its gap.
+/// What a node does in a step: the discrete derivative of its mean gap, times what is covered half way.
 #[derive(Clone, Debug, Default)]
 pub struct NodeForce {
-    /// What its gap at the end of the step is above the bound.
+    /// What its gap at the end of the step is above the bound times what is covered then [L^3].
     pub above: f64,
-    /// The bound e.
+    /// The bound e of the mean gap [L].
     pub bound: f64,
-    /// q; 0 where nothing moves.
+    /// What its mean gap changes by.
+    pub change: f64,
+    /// q; 0 where nothing moves, or no gap was known.
     pub quotient: f64,
     /// z . z; 0 where nothing moves.
     pub size: f64,

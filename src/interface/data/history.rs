@@ -22,9 +22,9 @@ pub enum Keeps {
     Gap,
     /// The frozen weights alone: without friction.
     Weights,
-    /// The frozen weights and the gaps of t_n, without friction: overlaps count as closed, or copies of a node are told apart.
+    /// The frozen weights and the gaps of t_n, without friction: copies of a node are told apart.
     GapAndWeights,
-    /// The gaps of t_n, without friction, weights of now: copies of a node are told apart.
+    /// The gaps of t_n, without friction, weights of now: overlaps count as closed, or copies of a node are told apart.
     GapAlone,
     /// Nothing: without friction, weights of now.
     Nothing,
@@ -37,7 +37,7 @@ impl Keeps {
         match (options.friction.law().remembers, options.effective_weights()) {
             (Remembers::Nothing, Weights::Current) if tells_copies || options.conserves() => Keeps::GapAlone,
             (Remembers::Nothing, Weights::Current) => Keeps::Nothing,
-            (Remembers::Nothing, weights) if tells_copies || weights == Weights::Persistent => Keeps::GapAndWeights,
+            (Remembers::Nothing, _) if tells_copies => Keeps::GapAndWeights,
             (Remembers::Nothing, _) => Keeps::Weights,
             (Remembers::FirstGap, _) => Keeps::Gap,
             (Remembers::Slip, _) => Keeps::Slip,

@@ -21,7 +21,7 @@ const WEIGHTS: [&str; 5] = [
     "weights of now",
     "weights frozen at the last commit",
     "weights of the first configuration",
-    "weights frozen at the last commit, whose overlaps count as closed",
+    "weights that this version does not have",
     "weights of now, whose forces are discrete derivatives of the gaps",
 ];
 const SLIPS: [&str; 4] = ["no slip", "the objective slip measure", "the slip increment", "the paper's slip measure"];
@@ -34,7 +34,6 @@ pub fn of(options: &Options, own: Option<&Own>, (nonmortar, mortar): (&Surface, 
         Weights::Current | Weights::Conserving => 0,
         Weights::Committed => 1,
         Weights::Reference => 2,
-        Weights::Persistent => 3,
     };
     let slip = match (law.remembers == Remembers::Slip, options.effective_slip()) {
         (false, _) => 0,

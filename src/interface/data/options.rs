@@ -29,10 +29,8 @@ pub enum Weights {
     Committed,
     /// Frozen, with normals and areas, at the first configuration: small displacements.
     Reference,
-    /// The same, and what overlaps at t_n counts as closed there: contact does no work to part it (docs/formulation.md 4.9).
-    Persistent,
     /// Of now, and gaps are functions of the places alone: contact takes exactly what they change by (docs/formulation.md 21).
-    Conserving,
+    Conserving = 4,
 }
 
 /// Which configuration the normals nu belong to.
@@ -269,14 +267,13 @@ impl Options {
     }
 
     /// With what is wished, and the best of the rest: dual multipliers, weights and normals of now, as far as they go with
-    /// the other options. Where points decide, friction needs weights that stay within a step. With persistent weights dual
-    /// multipliers, which are below 0 somewhere, make overlaps of surfaces that turn away from each other.
+    /// the other options. Where points decide, friction needs weights that stay within a step. With conserving weights dual multipliers, which
+    /// are below 0 somewhere and are carried by none there, see overlaps that are none where a surface turns away.
     #[must_use]
     pub fn settle(self, wishes: Wishes) -> Options {
         let stays = self.decision != Decision::Nodes && self.friction != Friction::None;
         let weights = wishes.weights.unwrap_or(if stays { Weights::Committed } else { Weights::Current });
-        let all_nodes = self.space == MultiplierSpace::Sub;
-        let standard = all_nodes || weights == Weights::Persistent;
+        let standard = self.space == MultiplierSpace::Sub || weights == Weights::Conserving;
         let choice = if standard { MultiplierBasis::Standard } else { MultiplierBasis::Dual };
         let basis = wishes.basis.unwrap_or(choice);
         let yields = (wishes.normals.is_none(), wishes.weights.is_none());
@@ -365,7 +362,6 @@ impl Options {
             (Feature::WeightsNow, is_now),
             (Feature::FrozenWeights, !is_now),
             (Feature::WeightsCommitted, self.effective_weights() == Weights::Committed),
-            (Feature::KeptOverlaps, self.keeps_overlaps()),
             (Feature::Conserving, self.conserves()),
             (Feature::PaperSlip, self.slip == SlipMeasure::Paper),
             (Feature::Friction, law.opens && law.multipliers > 1),
@@ -390,11 +386,6 @@ impl Options {
     /// Whether gaps are functions of the places alone, whose discrete derivatives are the forces.
     pub fn conserves(&self) -> bool {
         self.weights == Weights::Conserving && self.friction.law().opens
-    }
-
-    /// Whether an overlap at t_n counts as closed.
-    pub fn keeps_overlaps(&self) -> bool {
-        self.effective_weights() == Weights::Persistent
     }
 
     /// Whether the normals follow the motion within a step. Tied surfaces use none.
@@ -432,9 +423,7 @@ impl Options {
             return SlipMeasure::Increment;
         }
         match (self.effective_weights(), self.slip) {
-            (Weights::Committed | Weights::Persistent | Weights::Reference, SlipMeasure::Objective) => {
-                SlipMeasure::Increment
-            }
+            (Weights::Committed | Weights::Reference, SlipMeasure::Objective) => SlipMeasure::Increment,
             (_, slip) => slip,
         }
     }

@@ -85,8 +85,7 @@ impl<const N: usize> Setup<N> {
         compose::refuse(options.features().and(of_surfaces))?;
         put_parents([&mut nonmortar, &mut mortar], &multiplier_equations, options.space)?;
         let nodes = NodeData::new(&multiplier_equations, mu)?;
-        let moves = matches!(options.weights, Weights::Current | Weights::Conserving);
-        let wanted = options.decides_at_points() || !moves;
+        let wanted = options.decides_at_points() || options.weights != Weights::Current;
         let size_factors = if wanted { size_factors(&nonmortar, options.space)? } else { Vec::new() };
         let copies = crease::copies(&nonmortar)?;
         Ok(Setup {
@@ -141,6 +140,11 @@ impl<const N: usize> Setup<N> {
     #[inline]
     pub fn decides_at_points(&self) -> bool {
         self.options.decides_at_points()
+    }
+
+    /// Whether answers depend on covered areas.
+    pub fn reads_areas(&self) -> bool {
+        self.layer.is_some() || self.options.conserves()
     }
 
     /// Whether all blocks of a tangent are of nodes, none of facets: where points decide, and with conserving weights.

@@ -144,9 +144,6 @@ fn weights_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
             "frozen at the last commit (chosen: points decide), reused within a step"
         }
         Weights::Committed => "frozen at the last commit (asked for), reused within a step",
-        Weights::Persistent => {
-            "frozen at the last commit, where overlaps count as closed (asked for): contact gives no energy"
-        }
         Weights::Reference if !setup.options.friction.law().opens => {
             "frozen at the first configuration (tied), always reused"
         }
@@ -158,7 +155,7 @@ fn weights_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
 /// What the tangent leaves out.
 fn tangent_clause<const N: usize>(setup: &Setup<N>) -> &'static str {
     match (setup.options.effective_weights(), setup.options.tangent) {
-        (Weights::Committed | Weights::Persistent | Weights::Reference, _) | (_, Tangent::Exact) => "",
+        (Weights::Committed | Weights::Reference, _) | (_, Tangent::Exact) => "",
         (_, Tangent::FrozenWeights) => ", but not in the tangent (asked for): Newton's method is not quadratic",
         (_, Tangent::FrozenNormals) if setup.mortar.analytic.is_some() => "",
         (_, Tangent::FrozenNormals) => {

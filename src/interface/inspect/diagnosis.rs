@@ -257,7 +257,7 @@ fn worst_pairs<const N: usize>(given: Given<N>, pairs: &[PairRecord], (x1, x2): 
     // Where the weights are of.
     let (x1, x2) = match given.setup.options.effective_weights() {
         Weights::Current | Weights::Conserving => (x1, x2),
-        Weights::Committed | Weights::Persistent | Weights::Reference => given.weighted_at(),
+        Weights::Committed | Weights::Reference => given.weighted_at(),
     };
     let mut smallest = None;
     for pair in pairs {

@@ -235,8 +235,8 @@ pub fn equilibrium<const N: usize>(
             let bears = given.setup.layer.is_some() && responses[a].state == State::Gap;
             acts && !bears && lambda[a].norm() * (sums[a].coverage / areas[a]).min(1.0) > least
         };
-        // Weights of the reference do not know where the surfaces are, and persistent ones take overlaps for closed.
-        let knows = matches!(options.weights, Weights::Current | Weights::Committed | Weights::Conserving);
+        // Weights of the reference do not know where the surfaces are.
+        let knows = options.weights != Weights::Reference;
         // A node that another handle speaks for presses, too.
         let feels = |a: usize| knows && lambda[a].norm() > least;
         [all.penetration, all.apart] =

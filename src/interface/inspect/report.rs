@@ -11,6 +11,7 @@ use crate::interface::data::pairs::Weighted;
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::given::Given;
 use crate::interface::pairing::work::Work;
+use crate::interface::stages::conserving::gap_before;
 use crate::interface::stages::integrate::integrate;
 use crate::interface::stages::layers;
 use crate::interface::stages::over::SHARED;
@@ -123,7 +124,7 @@ impl Report {
         if let Some((a, depth, of_size)) = self.kept {
             text.append(format_args!(
                 " Node {a} overlaps by {depth:.2e} at the last commit, {of_size:.1e} of the size of its facets: with \
-                 STICKSLIP_WEIGHTS_PERSISTENT that counts as closed, presses nothing and stays."
+                 STICKSLIP_WEIGHTS_CONSERVING that counts as closed, presses nothing and stays."
             ))?;
         }
         Ok(text)
@@ -143,7 +144,7 @@ pub fn report<const N: usize>(given: Given<N>, work: &mut Work, (x1, x2): (&[Vec
             }
             (now.weighted(surfaces), x1)
         }
-        (Weights::Committed | Weights::Persistent, _) => (h.weighted(surfaces), &h.x1[..]),
+        (Weights::Committed, _) => (h.weighted(surfaces), &h.x1[..]),
         (_, _) => (h.weighted(surfaces), &surfaces.0.reference[..]),
     };
     let mut sums = Vec::new();
@@ -184,17 +185,15 @@ pub fn report<const N: usize>(given: Given<N>, work: &mut Work, (x1, x2): (&[Vec
         inside_out.then_some(Finding::InsideOut)
     };
     let without_multiplier = surfaces.0.nodes_without_row();
-    let kept = if options.keeps_overlaps() { kept(given)? } else { None };
+    let kept = if options.conserves() { kept(given)? } else { None };
     Ok(Report { nodes, without_multiplier, penetration, kept, finding })
 }
 
-/// The worst of the overlaps e_A of the step (docs/formulation.md 4.9), as a length.
+/// The worst of the overlaps e_A of the step (docs/formulation.md 21), as a length.
 fn kept<const N: usize>(given: Given<N>) -> Result<Option<(usize, f64, f64)>> {
-    let (surfaces, h, mut sums) = (given.setup.surfaces(), given.history(), Vec::new());
-    assemble(surfaces, h.weighted(surfaces), (&h.x1, &h.x2), &mut sums)?;
     let mut worst = None;
-    for (a, (coverage, gap)) in sums.iter().enumerate().filter(|(a, sum)| sum.0 > given.least_coverage(*a)) {
-        let depth = -given.normal(a)?.dot(gap) / coverage;
+    for a in 0..given.nodes() {
+        let depth = -gap_before(given, a)?.unwrap_or(0.0);
         let of_size = depth / given.facet_size(a);
         if of_size > worst.map_or(KEPT, |(_, _, most)| most) {
             worst = Some((a, depth, of_size));

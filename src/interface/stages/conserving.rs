@@ -1,7 +1,7 @@
-//! What nodes do with conserving weights (docs/formulation.md 21). With the gap g_A(x) = nu_A . g[n, x]_A, its gradient G_A, the mean
-//! places x_m and what moves in the step, u:
+//! What nodes do with conserving weights (docs/formulation.md 21). With the mean gap g_A(x) = nu_A . g[n, x]_A / m_A over what is covered,
+//! m_A, its gradient G_A, the mean places x_m and what moves in the step, u:
 //!
-//! - D_A = G_A(x_m) + q z,   q = (g_A(x') - g_A(x_n) - G_A(x_m) . u) / z . z,   so that D_A . u = g_A(x') - g_A(x_n)
+//! - D_A = m_A(x_m) G_A(x_m) + q z,   q = (m_A(x_m) (g_A(x') - g_A(x_n)) - m_A G_A(x_m) . u) / z . z
 //! - g_A(x') >= e_A,   e_A = min(0, g_A(x_n)),   forces lambda_N D_A
 //! - friction: weights and normals of x_m, slip P_m g[n_m, u], forces n_m lambda_T
 //!
@@ -30,10 +30,11 @@ pub fn mean_places(before: &[Vec3], now: &[Vec3], mean: &mut Vec<Vec3>) -> Resul
     mean.store_all(before.iter().zip(now).map(|(a, b)| (a + b) * 0.5))
 }
 
-/// nu_A . g_A at t_n.
-pub fn gap_before<const N: usize>(given: Given<N>, a: usize) -> Result<f64> {
-    let gap = given.history().gap.get(a).copied().unwrap_or_else(Vec3::zeros);
-    Ok(given.normal_of_step(a)?.dot(&gap))
+/// The mean gap at t_n, where anything was covered.
+pub fn gap_before<const N: usize>(given: Given<N>, a: usize) -> Result<Option<f64>> {
+    let (history, normal) = (given.history(), given.normal_of_step(a)?);
+    let area = history.coverage[a];
+    Ok(history.gap.get(a).filter(|_| area > 0.0).map(|gap| normal.dot(gap) / area))
 }
 
 /// By what an analytic mortar side has shifted in the step: nodes move against it.
@@ -68,18 +69,19 @@ pub fn settle<const N: usize>(given: Given<N>, (x1, x2): (&[Vec3], &[Vec3]), kno
     let [now, mean] = &known.gaps;
     for (a, force) in known.forces.iter_mut().enumerate() {
         let before = gap_before(given, a)?;
-        force.bound = before.min(0.0);
-        force.above = now[a].value() - force.bound;
+        force.bound = before.map_or(0.0, |gap| gap.min(0.0));
+        force.above = now[a].normal.dot(&now[a].gap) - force.bound * now[a].coverage;
         force.take(rigid, &mean[a], moved)?;
         let still = STILL * given.size(a);
-        let change = now[a].value() - before;
+        let change = before.filter(|_| now[a].coverage > 0.0).map(|gap| now[a].mean() - gap);
+        force.change = change.unwrap_or(0.0);
         let first: f64 = force.force.iter().zip(&force.moved).map(|(g, u)| g.dot(u)).sum();
         force.size = force.along.iter().map(Vec3::norm_squared).sum();
-        if force.size <= still * still {
+        if force.size <= still * still || change.is_none() {
             (force.size, force.quotient) = (0.0, 0.0);
             continue;
         }
-        force.quotient = (change - first) / force.size;
+        force.quotient = (mean[a].coverage * force.change - first) / force.size;
         force.force.iter_mut().zip(&force.along).for_each(|(d, z)| *d += z * force.quotient);
     }
     Ok(())
@@ -92,7 +94,7 @@ impl NodeForce {
         [&mut *force, &mut *along, &mut *motion, &mut *arms].into_iter().for_each(Vec::clear);
         for on in &mean.nodes {
             let (u, x) = moved(on.node);
-            force.store(mean.slope(on))?;
+            force.store(mean.slope(on, mean.mean()))?;
             motion.store(u)?;
             arms.store(x)?;
         }
@@ -125,6 +127,12 @@ pub fn sums(known: &Conserving, sums: &mut Vec<NodeSums>) -> Result<()> {
         })?;
     }
     Ok(())
+}
+
+/// What is told is where the surfaces are.
+pub fn tell<const N: usize>(known: &Conserving, responses: &mut [NodeResponse<N>]) {
+    let of = known.gaps[0].iter().zip(&known.forces);
+    responses.iter_mut().zip(of).for_each(|(to, (now, force))| to.gap_normal += force.bound * now.coverage);
 }
 
 /// Forces and rows at the law's answers, in place of what was in `r`.

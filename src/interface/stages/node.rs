@@ -3,19 +3,12 @@
 use super::own::is_new;
 use super::sums::NodeSums;
 use crate::error::Result;
-use crate::geometry::Vec3;
 use crate::interface::data::counters::NodeCounts;
 use crate::interface::data::extent::{Extent, Scope};
 use crate::interface::data::options::NewContact;
 use crate::interface::pairing::given::Given;
 use crate::law::{Node, Special};
 use nalgebra::SVector;
-
-/// What of a node's gap along nu counts as closed in this step, at most 0 [L^3]: what it overlapped by at t_n, where the weights say
-/// so (docs/formulation.md 4.9).
-pub fn kept_overlap<const N: usize>(given: Given<N>, normal: &Vec3, sums: &NodeSums) -> f64 {
-    if given.setup.options.keeps_overlaps() { normal.dot(&sums.gap_committed).min(0.0) } else { 0.0 }
-}
 
 /// What the law is asked about node A.
 pub fn node<const N: usize>(given: Given<N>, a: usize, lambda: SVector<f64, N>, sums: &NodeSums) -> Result<Node<N>> {
@@ -24,14 +17,13 @@ pub fn node<const N: usize>(given: Given<N>, a: usize, lambda: SVector<f64, N>, 
     let is_new = !covered_before && options.new_contact == NewContact::Frictionless;
     let frictionless = is_new || given.has_copy_in_contact(a);
     let normal = given.normal(a)?;
-    let overlap = kept_overlap(given, &normal, sums);
     Ok(Node {
         lambda,
         normal,
         augmentation: given.augmentation(a),
         mu: if frictionless { 0.0 } else { nodes.mu[a] },
         shear_limit: options.shear_limit.unwrap_or(f64::INFINITY),
-        gap_now: if overlap < 0.0 { sums.gap_now - normal * overlap } else { sums.gap_now },
+        gap_now: sums.gap_now,
         gap_previous: sums.gap_previous,
         gap_committed: sums.gap_committed,
         covered: sums.coverage > least,

@@ -1,8 +1,7 @@
 //! Stage 2 over a whole interface: the law's answers at every node.
 
 use super::carried::{carry, find_carried};
-use super::conserving::gap_before;
-use super::node::{count_of, is_left_out, kept_overlap, node};
+use super::node::{count_of, is_left_out, node};
 use super::own::OwnAnswers;
 use super::sums::NodeSums;
 use crate::error::{Error, Kind, Result};
@@ -59,14 +58,7 @@ pub fn respond<const N: usize>(
             let node = node(given, a, lambda[a], &sums[a])?;
             let is_carried = carried.get(a).is_some_and(|c| *c);
             *(if is_carried { &mut counts.carried } else { count_of(given, a, &node, counts) }) += 1;
-            let normal = node.normal;
-            let mut response = own.respond(given, a, (node, &sums[a]))?;
-            // What is told is where the surfaces are.
-            response.gap_normal += match given.setup.options.conserves() {
-                true => gap_before(given, a)?.min(0.0),
-                false => kept_overlap(given, &normal, &sums[a]),
-            };
-            response
+            own.respond(given, a, (node, &sums[a]))?
         })?;
     }
     if carried.contains(&true) {

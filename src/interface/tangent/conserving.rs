@@ -151,7 +151,7 @@ impl<const N: usize> NodeBlocks<N> {
         let scale = if given.setup.nodes.is_own(a) { given.row_scale(a) } else { 0.0 };
         let by_gap = response.drow_dnow * scale;
         for on in &now.nodes {
-            self.add_row(on.node, by_gap * mean.normal * now.slope(on).transpose());
+            self.add_row(on.node, by_gap * mean.normal * now.slope(on, force.bound).transpose());
         }
         if N == 1 {
             return Ok(());
@@ -201,12 +201,14 @@ impl<const N: usize> NodeBlocks<N> {
                 self.add([on.node, by.node], dz * (normal * q));
             }
             let z = force.along[k] * (normal / force.size);
+            let part = mean.coverage / now.coverage;
             for by in &now.nodes {
-                self.add([on.node, by.node], z * now.slope(by).transpose());
+                self.add([on.node, by.node], z * (now.slope(by, now.mean()) * part).transpose());
             }
             for (l, by) in mean.nodes.iter().enumerate() {
                 let curved = numbers.curvature.along[a][l] * 0.5;
-                let less = mean.slope(by) + curved + own.tr_mul(&force.along[l]) * (2.0 * q);
+                let less = mean.slope(by, mean.mean()) + curved - by.area * (0.5 * force.change)
+                    + own.tr_mul(&force.along[l]) * (2.0 * q);
                 self.add([on.node, by.node], z * -less.transpose());
             }
         }

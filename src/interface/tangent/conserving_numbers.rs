@@ -11,9 +11,9 @@ pub type WeightSlopes = Vec<(usize, usize, Vec3)>;
 /// Second derivatives half way (`curvature.rs`).
 #[derive(Debug, Default)]
 pub struct Curvature {
-    /// Blocks of sum_A lambda_A D^2 g_A, row and column, each with a node that depends on both.
+    /// Blocks of lambda_A D (m_A Dg_A), row and column, each with a node that depends on both.
     pub blocks: Vec<Vec<([usize; 2], Mat3)>>,
-    /// D^2 g_A . u of the nodes that g_A depends on.
+    /// D (m_A Dg_A . u) at fixed u, of the nodes that g_A depends on.
     pub along: Vec<Vec<Vec3>>,
 }
 

@@ -1,4 +1,5 @@
-//! How the gradients of the gaps change with the places: sum_A lambda_A D^2 g_A, and D^2 g_A . u of what moves (docs/formulation.md 21). What
+//! How the gradients m_A Dg_A of the mean gaps change with the places, times lambda_A, and that of their products with what moves
+//! (docs/formulation.md 21). What
 //! weights have are differences of their derivatives, facet by facet with normals held; normals have it in closed form, but for those of
 //! corners, which are differences, too.
 
@@ -54,6 +55,7 @@ impl Curvature {
         }
         for (a, mean) in known.gaps[1].iter().enumerate().filter(|(a, _)| lambda[*a] != 0.0) {
             made.normals((a, mean, lambda[a]), &known.forces[a].moved)?;
+            made.areas((a, mean, lambda[a]), &known.forces[a].moved)?;
         }
         Ok(made)
     }
@@ -62,7 +64,7 @@ impl Curvature {
     fn add(&mut self, (a, lambda): (usize, f64), of: (&NodeGap, &[Vec3]), at: [usize; 2], block: Mat3) -> Result<()> {
         let place = |node: usize| of.0.nodes.iter().position(|on| on.node == node);
         if let [Some(row), Some(column)] = at.map(place) {
-            self.along[a][row] += block * of.1[column];
+            self.along[a][column] += block.tr_mul(&of.1[row]);
         }
         self.blocks[a].store((at, block * lambda))
     }
@@ -79,7 +81,9 @@ impl Curvature {
         let (own, n1, mean) = (one.host_nodes(f), one.len(), &known.gaps[1]);
         let multipliers = one.multipliers(f);
         let mut nodes: Vec<usize> = Vec::new();
-        gaps.each(given, (&known.mean, pairs), &mut |k, node, _, _| if k == 0 { nodes.store(node) } else { Ok(()) })?;
+        gaps.each(given, (&known.mean, pairs), &mut |k, (node, _), _, _| {
+            if k == 0 { nodes.store(node) } else { Ok(()) }
+        })?;
         let first = known.mean.pairs.partition_point(|pair| one.host_facet(pair.one) < f);
         let end = known.mean.pairs.partition_point(|pair| one.host_facet(pair.one) <= f);
         let of_facet = &known.mean.pairs[first..end];
@@ -107,9 +111,10 @@ impl Curvature {
                     again((one, two), (options, filter), of_facet, near, segments)?;
                     let mut walk = Walk::through(all(given, near), f..f + 1);
                     if walk.next(found)?.is_some() {
-                        gaps.each(given, (&*near, &*found), &mut |k, row, _, gap| {
+                        gaps.each(given, (&*near, &*found), &mut |k, (row, _), gap, area| {
                             if let Some(row) = nodes.iter().position(|known| *known == row) {
-                                let slope = gap.tr_mul(&mean[own[k]].normal) * (sign / (2.0 * step));
+                                let of = &mean[own[k]];
+                                let slope = (gap.tr_mul(&of.normal) - area * of.mean()) * (sign / (2.0 * step));
                                 let mut column = blocks[k * nodes.len() + row].column_mut(j);
                                 column += slope;
                             }
@@ -161,6 +166,17 @@ impl Curvature {
                 for (&row, block) in nodes.iter().zip(&blocks) {
                     self.add((a, lambda[a]), (mean, &known.forces[a].moved), [row, node], *block)?;
                 }
+            }
+        }
+        Ok(())
+    }
+
+    /// How the gap turns that what is covered counts with.
+    fn areas(&mut self, (a, mean, lambda): (usize, &NodeGap, f64), moved: &[Vec3]) -> Result<()> {
+        for on in mean.nodes.iter().filter(|on| on.area != Vec3::zeros()) {
+            for by in &mean.nodes {
+                let block = on.area * (mean.slope(by, mean.mean()) / -mean.coverage).transpose();
+                self.add((a, lambda), (mean, moved), [on.node, by.node], block)?;
             }
         }
         Ok(())

@@ -45,6 +45,7 @@ pub struct GapRoom<const N: usize> {
     linear: LinearRoom,
     parent: ParentRoom,
     row: Vec<NodeBlock>,
+    areas: Vec<NodeBlock>,
     tractions: Vec<NodeTangent<N>>,
     responses: Responses<N>,
     /// nu of every node.
@@ -59,12 +60,12 @@ impl<const N: usize> GapRoom<N> {
     }
 
     /// Gives, of each multiplier of the facet of these pairs and each node that its gap depends on, over both surfaces, place in the facet,
-    /// weight and Dg.
+    /// node, weight, Dg and D of what is covered.
     pub fn each(
         &mut self,
         given: Given<N>,
         (active, pairs): (&Active, &[UnionPair]),
-        take: &mut dyn FnMut(usize, usize, f64, Mat3) -> Result<()>,
+        take: &mut dyn FnMut(usize, (usize, f64), Mat3, Vec3) -> Result<()>,
     ) -> Result<()> {
         let setup = given.setup;
         let surface = setup.mortar.analytic.map(|_| setup.mortar.analytic_at(&active.x2)).transpose()?;
@@ -92,10 +93,13 @@ impl<const N: usize> GapRoom<N> {
             &self.table
         };
         let through = Through { now: Mat3::identity(), ..Through::default() };
+        let of_area = Through { area: Vec3::x(), ..Through::default() };
         for k in 0..setup.nonmortar.multipliers(f) {
             table.gap_row(k, &through, &mut self.row)?;
+            table.gap_row(k, &of_area, &mut self.areas)?;
             for &(column, node) in table.nodes() {
-                take(k, node, table.weight(column, k), matrix(&self.row[column]))?;
+                let area = matrix(&self.areas[column]).row(0).transpose();
+                take(k, (node, table.weight(column, k)), matrix(&self.row[column]), area)?;
             }
         }
         Ok(())
@@ -131,12 +135,13 @@ pub fn gaps<const N: usize>(
     let (mut walk, mut pairs) = (Walk::through(all(given, active), 0..usize::MAX), Vec::new());
     while let Some(f) = walk.next(&mut pairs)? {
         let nodes = setup.nonmortar.host_nodes(f);
-        room.each(given, (active, &pairs), &mut |k, node, weight, gap| {
+        room.each(given, (active, &pairs), &mut |k, (node, weight), gap, area| {
             let of = &mut gaps[nodes[k]];
             if of.coverage > 0.0 {
                 let on = of.on(node)?;
                 on.weight += weight;
                 on.gap += gap;
+                on.area += area;
             }
             Ok(())
         })?;

@@ -57,7 +57,7 @@ pub fn fill<const N: usize>(
     let of_nodes = one.facets[f].nodes.map(|a| normals[a]);
     let raise = is_offset.then(|| Raise { normals: of_nodes, in_previous: in_previous_gaps(given) });
     table.differentiate(dual.is_some(), numbers.motion.surface.is_none(), raise)?;
-    if given.setup.layer.is_some() {
+    if given.setup.reads_areas() {
         table.begin_areas()?;
     }
     let linearised = places.len() as i64;
@@ -73,7 +73,7 @@ pub fn fill<const N: usize>(
         Some(surface) => facet.over_surface((surface, &nodes.traction), at, forces, table)?,
         None => facet.over_facets(nodes, at, forces, (table, emitter)),
     }
-    if given.setup.layer.is_some() && dual.is_none() {
+    if given.setup.reads_areas() && dual.is_none() {
         facet.areas(forces, table)?;
     }
     if is_offset {

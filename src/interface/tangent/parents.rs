@@ -83,7 +83,7 @@ pub fn fill<const N: usize>(task: Task<N>, pairs: &[UnionPair], room: &mut Paren
         moves: task.moves,
         how: numbers.motion,
         in_previous: in_previous_gaps(task.given),
-        has_layer: task.given.setup.layer.is_some(),
+        has_layer: task.given.setup.reads_areas(),
     };
     let linearised = at.differentiate((f, pairs), (numbers.active, tractions), room)?;
     if numbers.active.is_some() && frame::is_read(task.given) {

@@ -10,7 +10,7 @@ pub const DIMENSIONS: [(&str, &[&str]); 23] = [
     ("normals", &["committed", "current"]),
     ("decision", &["nodes", "points"]),
     ("form", &["multiplier", "augmented"]),
-    ("weights", &["current", "committed", "reference", "persistent", "conserving"]),
+    ("weights", &["current", "committed", "reference", "conserving"]),
     ("slip", &["objective", "increment", "paper"]),
     (
         "law",
@@ -175,7 +175,6 @@ impl Choice {
             (Feature::WeightsNow, self.is_current()),
             (Feature::FrozenWeights, !self.is_current()),
             (Feature::WeightsCommitted, self.is("weights", "committed") && !tied),
-            (Feature::KeptOverlaps, self.is("weights", "persistent") && !tied),
             (Feature::Conserving, conserves && !tied),
             (Feature::PaperSlip, self.is("slip", "paper")),
             (Feature::Friction, !tied && !self.is("law", "none")),
@@ -232,7 +231,7 @@ impl Choice {
         call(Asked::Condensed, self.is_condensed(), &[Feature::Condensed]);
         call(Asked::InPlace, self.is("system", "inplace"), &[Feature::Condensed, Feature::InPlace]);
         call(Asked::Heat, !self.is("heat", "no"), &[Feature::Heat]);
-        call(Asked::HeatTangent, motion, &[Feature::Heat]);
+        call(Asked::HeatTangent, motion, &[Feature::Heat, Feature::HeatMotion]);
         call(Asked::Derivatives, !self.is("derivatives", "no"), &[Feature::Derivatives]);
         call(Asked::SetCommitted, self.is("restart", "committed"), &[Feature::NodeHistory]);
         steps

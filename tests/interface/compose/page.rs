@@ -11,13 +11,12 @@ const LABEL: &str = "Not with (UNSUPPORTED):";
 const WIDTH: usize = 125;
 
 /// Where the header says what a feature does not go with: file of src/capi, what the comment stands before.
-const PLACES: [(&str, &str, Feature); 22] = [
+const PLACES: [(&str, &str, Feature); 21] = [
     ("method.rs", "pub const STICKSLIP_BASIS_STANDARD:", Feature::StandardBasis),
     ("method.rs", "pub const STICKSLIP_BASIS_DUAL:", Feature::DualBasis),
     ("space.rs", "pub const STICKSLIP_SPACE_SUB:", Feature::AllNodes),
     ("method.rs", "pub const STICKSLIP_FORM_AUGMENTED:", Feature::Augmented),
     ("method.rs", "pub const STICKSLIP_NORMALS_CURRENT:", Feature::NormalsNow),
-    ("method.rs", "pub const STICKSLIP_WEIGHTS_PERSISTENT:", Feature::KeptOverlaps),
     ("method.rs", "pub const STICKSLIP_WEIGHTS_CONSERVING:", Feature::Conserving),
     ("method.rs", "pub const STICKSLIP_SLIP_PAPER:", Feature::PaperSlip),
     ("options.rs", "pub const STICKSLIP_FRICTION_TIED:", Feature::Tied),

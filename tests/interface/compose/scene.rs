@@ -165,7 +165,6 @@ impl Scene {
             weights: match c.of("weights") {
                 "committed" => Weights::Committed,
                 "reference" => Weights::Reference,
-                "persistent" => Weights::Persistent,
                 "conserving" => Weights::Conserving,
                 _ => Weights::Current,
             },
