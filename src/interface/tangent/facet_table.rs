@@ -75,7 +75,7 @@ impl FacetTable {
             for is_active in [true, false] {
                 for pair in pairs.iter().filter(|pair| pair.is_active == is_active) {
                     for &node in two.facets[pair.two].as_slice() {
-                        if !self.mortar.iter().any(|&c| c == node) {
+                        if !self.mortar.contains(&node) {
                             self.mortar.store(node)?;
                         }
                     }
