@@ -167,7 +167,7 @@ pub fn store_entry<T>(values: &mut Vec<T>, value: T) -> Result<()> {
 }
 
 impl<T> Store<T> for Vec<T> {
-    #[inline]
+    #[inline(never)]
     fn store(&mut self, value: T) -> Result<()> {
         store_entry(self, value)
     }
