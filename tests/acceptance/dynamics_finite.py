@@ -178,12 +178,13 @@ def dissipates(verdicts, driver):
 
 
 def tangents(verdicts, driver):
-    """Every iterate of a step in which a body turns, is strained, meets another and is damped."""
+    """Every iterate of a step in which a body turns, is strained, meets another and is damped. Its facets are no parallelograms any more: with the default rule
+    tangents are off by that rule's error, 4e-7 here."""
     block = {"type": "box", "young": 10, "poisson": 0.3, "density": 1}
     scene = {"schema": 1, "bodies": ["upper", "lower"], "upper": {**block, "lower": [0.1, 0.1, 1], "upper": [0.8, 0.9, 1.4], "cells": [2, 1, 1], "velocity": [0.5, 0.2, -0.5], "spin": [0.9, 0.4, 2], "about": [0.4, 0.5, 1]},
              "lower": {**block, "lower": [0, 0, 0.5], "upper": [1, 1, 1], "cells": [2, 2, 1]}, "dynamics": {"rho_inf": 1},
              "supports": ["ground"], "ground": {"surface": "lower.zmin", "components": ["x", "y", "z"]},
-             "interfaces": ["c"], "c": {"nonmortar": "upper.zmin", "mortar": "lower.zmax", "friction": 0.3}, "steps": {"times": [0.05, 0.1]}, "output": {"vtu": "none", "csv": "none"}}
+             "interfaces": ["c"], "c": {"nonmortar": "upper.zmin", "mortar": "lower.zmax", "friction": 0.3, "quadrature": "degree_10"}, "steps": {"times": [0.05, 0.1]}, "output": {"vtu": "none", "csv": "none"}}
     damping = ("-dynamics_stiffness_damping", "0.02", "-dynamics_mass_damping", "0.5")
     for law in LAWS:
         both = ("-upper_material", law, "-lower_material", law)
