@@ -89,7 +89,8 @@ static void refuse_models(Scene *scene, const Solve *solve)
     const Interface *interface = &solve->contact->interfaces[i];
     sensitivity_refuse(scene, solve, (PetscBool)(interface->skin != NULL), "`contact: all`");
     sensitivity_refuse(scene, solve, (PetscBool)(interface->method.form == STICKSLIP_FORM_AUGMENTED), "`form: augmented`");
-    sensitivity_refuse(scene, solve, (PetscBool)(interface->method.normals == STICKSLIP_NORMALS_COMMITTED), "`normals: committed`");
+    sensitivity_refuse(scene, solve, (PetscBool)(interface->method.normals == STICKSLIP_NORMALS_COMMITTED && interface->method.weights != STICKSLIP_WEIGHTS_REFERENCE),
+                       "`normals: committed`");
   }
 }
 

@@ -162,10 +162,10 @@ static PetscErrorCode reactions(const Physics *physics, Vec forces, PetscReal re
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Of forces on free displacements nothing is to be left. */
-static PetscErrorCode measure(Solve *solve, Vec forces, Vec work)
+/* Of forces on free displacements nothing is to be left, over the largest of their two parts: `asked`, which the parameter changes by itself,
+ * and what cells answer. */
+static PetscErrorCode measure(Solve *solve, const Parameter *parameter, PetscReal asked, Vec forces, Vec work)
 {
-  Vec       largest;
   PetscReal free_norm, all_norm;
   PetscFunctionBegin;
   PetscCall(VecZeroEntries(work));
@@ -173,9 +173,10 @@ static PetscErrorCode measure(Solve *solve, Vec forces, Vec work)
   PetscCall(DMLocalToGlobalEnd(solve->mesh->dm, forces, ADD_VALUES, work));
   PetscCall(VecPointwiseMult(work, work, solve->closing.displacements));
   PetscCall(VecNorm(work, NORM_INFINITY, &free_norm));
-  PetscCall(unknowns_sum(solve->physics, forces));
-  largest = solve->physics->f_sum;
-  PetscCall(VecNorm(largest, NORM_INFINITY, &all_norm));
+  PetscCall(VecZeroEntries(forces));
+  PetscCall(bulk_along(solve->physics, parameter->now, forces));
+  PetscCall(VecNorm(forces, NORM_INFINITY, &all_norm));
+  all_norm = PetscMax(all_norm, asked);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &all_norm, 1, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
   if (all_norm > 0) solve->sensitivity->imbalance = PetscMax(solve->sensitivity->imbalance, free_norm / all_norm);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -207,6 +208,7 @@ PetscErrorCode sensitivity_solve(Solve *solve, Vec x, PetscInt *status)
   PetscCall(DMGetGlobalVector(dm, &dx));
   for (PetscInt p = 0; p < all->n && !*status; p++) {
     Parameter *parameter = &all->parameters[p];
+    PetscReal  asked;
     PetscCall(prescribed(solve->physics, parameter));
     PetscCall(change(solve, parameter, PETSC_FALSE, all->forces, status));
     if (*status) break;
@@ -215,13 +217,14 @@ PetscErrorCode sensitivity_solve(Solve *solve, Vec x, PetscInt *status)
     PetscCall(DMLocalToGlobalEnd(dm, all->forces, ADD_VALUES, r));
     PetscCall(hold_redundant(solve, r));
     PetscCall(VecScale(r, -1));
+    PetscCall(VecNorm(r, NORM_INFINITY, &asked));
     PetscCall(KSPSolve(ksp, r, dx));
     PetscCall(DMGlobalToLocalBegin(dm, dx, INSERT_VALUES, parameter->now)); /* touches the equations only */
     PetscCall(DMGlobalToLocalEnd(dm, dx, INSERT_VALUES, parameter->now));
     PetscCall(change(solve, parameter, PETSC_TRUE, all->forces, status));
     if (*status) break;
     PetscCall(reactions(solve->physics, all->forces, parameter->reactions));
-    PetscCall(measure(solve, all->forces, r));
+    PetscCall(measure(solve, parameter, asked, all->forces, r));
   }
   PetscCall(DMRestoreGlobalVector(dm, &dx));
   PetscCall(DMRestoreGlobalVector(dm, &r));

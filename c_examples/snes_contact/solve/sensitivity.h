@@ -32,7 +32,7 @@ struct Sensitivity {
   PetscInt   n;
   Parameter *parameters;
   Vec        forces;    /* local: work space */
-  PetscReal  imbalance; /* of derivatives of forces where nothing is prescribed, over the largest anywhere: what rounding leaves, of the last step */
+  PetscReal  imbalance; /* of derivatives of forces where nothing is prescribed, over their parts: what rounding leaves, of the last step */
 };
 
 /* parameters_scene.c; NULL: the scene asks for none */
