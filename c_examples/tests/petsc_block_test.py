@@ -4,8 +4,10 @@ petsc_block_test.py PROGRAM
 """
 
 import re
-import subprocess
 import sys
+
+import block_report
+from block_report import check, run
 
 # Newton's method balances forces to 1e-11, and the report has 12 digits.
 SAME_FORCE = 1e-9
@@ -16,26 +18,10 @@ LOAD, FRICTION, STRAIN = 0.4, 0.3, 1e-4
 # lie at a kink, over which a difference means nothing.
 SAME_TANGENT = 1e-6
 
-STEP = re.compile(
-    r"step \d+: \d+ iterations, (\d+) gap (\d+) stick (\d+) slip, load (\S+) contact (\S+) (\S+) reaction (\S+)"
-)
-failures = 0
-
-
-def check(what, value, bound):
-    global failures
-    passed = value <= bound  # not a number fails
-    failures += not passed
-    print(f"{what:60} {value:9.2e} <= {bound:.0e}  {'ok' if passed else 'FAILED'}")
-
-
-def run(*options):
-    return subprocess.run([sys.argv[1], *options], check=True, capture_output=True, text=True).stdout
-
 
 def steps(*options):
-    report = run("-load", str(LOAD), "-push", "1e-3", *options)
-    return [tuple(float(value) for value in found) for found in STEP.findall(report)]
+    """States and forces of each step."""
+    return [found[2:] for found in block_report.steps(sys.argv[1], "-load", str(LOAD), "-push", "1e-3", *options)]
 
 
 def forces(name, found):
@@ -62,7 +48,7 @@ smooth = steps("-friction", "0")
 forces("no friction", smooth)
 check("no friction: no force along the base", max(abs(along) for *_, along, _ in smooth) / LOAD, SAME_FORCE)
 
-errors = re.findall(r"\|\|J - Jfd\|\|_F/\|\|J\|\|_F = ([^,]+),", run("-n", "2", "-snes_test_jacobian"))
+errors = re.findall(r"\|\|J - Jfd\|\|_F/\|\|J\|\|_F = ([^,]+),", run(sys.argv[1], "-n", "2", "-snes_test_jacobian"))
 check("the tangent is compared with differences", -len(errors), -20)
 check("the tangent is that of the residual", float(errors[-1]), SAME_TANGENT)
-sys.exit(failures > 0)
+sys.exit(block_report.failures > 0)

@@ -50,6 +50,8 @@ static void read_parameter(Scene *scene, const Solve *solve, Parameter *paramete
 {
   const char *name = parameter->name;
   char        of[NAME_LENGTH];
+  if (!strcmp(name, "deviation") || !strcmp(name, "imbalance"))
+    scene_fail(scene, NULL, "parameters", "the results have something else that is called '%s'; choose another name.", name);
   parameter->kind = N_PARAMETER_KINDS;
   for (int kind = 0; kind < N_PARAMETER_KINDS; kind++) {
     if (!scene_has(scene, name, KINDS[kind])) continue;

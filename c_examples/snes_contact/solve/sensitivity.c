@@ -1,6 +1,5 @@
 /* Derivatives of a step's end by parameters, forwards: from those of t_n, with the tangent of the step's end. */
 #include "physics/timed.h"
-#include "solve/redundant.h"
 #include "solve/sensitivity.h"
 
 typedef struct {
@@ -63,7 +62,6 @@ PetscErrorCode sensitivity_create(Scene *scene, Solve *solve)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-
 static void copy_entry(const Support *support, PetscInt entry, int component, PetscBool owned, void *context)
 {
   const Copying *of = context;
@@ -86,25 +84,15 @@ static PetscErrorCode prescribed(const Physics *physics, Parameter *parameter)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* dR along the parameter: with what is known of `now` before the step's system is solved, or with all of it. */
-static PetscErrorCode change(Solve *solve, const Parameter *parameter, PetscBool all_of_now, Vec forces, PetscInt *status)
+/* dR along the parameter as far as it is known before the system of the step is solved; `now` becomes what is prescribed. */
+static PetscErrorCode ask(Solve *solve, Parameter *parameter, Vec forces, PetscInt *status)
 {
-  Physics         *physics = solve->physics;
-  const PetscBool  moves   = (PetscBool)(all_of_now || parameter->kind == PARAMETER_SUPPORT);
-  ContactDirection direction = {.interface   = -1,
-                                .previous    = parameter->last,
-                                .now         = moves ? parameter->now : NULL,
-                                .multipliers = all_of_now};
+  Physics         *physics   = solve->physics;
+  ContactDirection direction = {.interface = parameter->kind < PARAMETER_YOUNG ? parameter->number : -1, .previous = parameter->last};
   PetscFunctionBegin;
+  PetscCall(prescribed(physics, parameter));
   PetscCall(VecZeroEntries(forces));
-  if (moves) PetscCall(bulk_along(physics, parameter->now, forces));
   switch (parameter->kind) {
-  case PARAMETER_YOUNG:
-    PetscCall(bulk_per_young(physics, parameter->number, forces));
-    break;
-  case PARAMETER_LOAD:
-    PetscCall(VecAXPY(forces, -curve_value(&physics->loads[parameter->number].curve, physics->t), physics->loads[parameter->number].forces));
-    break;
   case PARAMETER_FRICTION:
     direction.friction = 1;
     break;
@@ -116,27 +104,44 @@ static PetscErrorCode change(Solve *solve, const Parameter *parameter, PetscBool
     direction.offset   = curve->n ? curve_value(curve, physics->t) : 1;
     break;
   }
+  case PARAMETER_YOUNG:
+    PetscCall(bulk_per_young(physics, parameter->number, forces));
+    break;
+  case PARAMETER_LOAD:
+    PetscCall(VecAXPY(forces, -curve_value(&physics->loads[parameter->number].curve, physics->t), physics->loads[parameter->number].forces));
+    break;
+  case PARAMETER_SUPPORT:
+    direction.now = parameter->now;
+    PetscCall(bulk_along(physics, parameter->now, forces));
+    break;
   default:
     break;
   }
-  if (parameter->kind < PARAMETER_YOUNG) direction.interface = parameter->number;
   PetscCall(contact_along(solve->contact, &direction, forces, status));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What is left out keeps its value. */
-static PetscErrorCode hold_redundant(const Solve *solve, Vec r)
+/* What the unknowns' change dx makes of it: into `now` and `forces`; `largest`: of what cells have of the latter. */
+static PetscErrorCode answer(Solve *solve, Parameter *parameter, Vec dx, Vec forces, PetscReal *largest, PetscInt *status)
 {
-  const Redundant *redundant = &solve->redundant;
-  PetscInt         first, end;
+  DM               dm = solve->mesh->dm;
+  ContactDirection direction = {.interface = -1, .multipliers = PETSC_TRUE};
+  Vec              du, more;
   PetscFunctionBegin;
-  PetscCall(VecGetOwnershipRange(r, &first, &end));
-  for (PetscInt k = 0; k < redundant->n; k++) {
-    const PetscInt row = redundant->multipliers[k].equation;
-    if (row >= first && row < end) PetscCall(VecSetValue(r, row, 0, INSERT_VALUES));
-  }
-  PetscCall(VecAssemblyBegin(r));
-  PetscCall(VecAssemblyEnd(r));
+  PetscCall(DMGetLocalVector(dm, &du));
+  PetscCall(DMGetLocalVector(dm, &more));
+  PetscCall(VecZeroEntries(du));
+  PetscCall(DMGlobalToLocalBegin(dm, dx, INSERT_VALUES, du)); /* touches the equations only */
+  PetscCall(DMGlobalToLocalEnd(dm, dx, INSERT_VALUES, du));
+  PetscCall(VecZeroEntries(more));
+  PetscCall(bulk_along(solve->physics, du, more));
+  PetscCall(VecNorm(more, NORM_INFINITY, largest));
+  direction.now = du;
+  PetscCall(contact_along(solve->contact, &direction, more, status));
+  PetscCall(VecAXPY(forces, 1, more));
+  PetscCall(VecAXPY(parameter->now, 1, du));
+  PetscCall(DMRestoreLocalVector(dm, &more));
+  PetscCall(DMRestoreLocalVector(dm, &du));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -162,23 +167,18 @@ static PetscErrorCode reactions(const Physics *physics, Vec forces, PetscReal re
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Of forces on free displacements nothing is to be left, over the largest of their two parts: `asked`, which the parameter changes by itself,
- * and what cells answer. */
-static PetscErrorCode measure(Solve *solve, const Parameter *parameter, PetscReal asked, Vec forces, Vec work)
+/* Of forces on free displacements nothing is to be left, over the largest of their two parts. */
+static PetscErrorCode measure(Solve *solve, PetscReal largest, Vec forces, Vec work)
 {
-  PetscReal free_norm, all_norm;
+  PetscReal left;
   PetscFunctionBegin;
   PetscCall(VecZeroEntries(work));
   PetscCall(DMLocalToGlobalBegin(solve->mesh->dm, forces, ADD_VALUES, work));
   PetscCall(DMLocalToGlobalEnd(solve->mesh->dm, forces, ADD_VALUES, work));
   PetscCall(VecPointwiseMult(work, work, solve->closing.displacements));
-  PetscCall(VecNorm(work, NORM_INFINITY, &free_norm));
-  PetscCall(VecZeroEntries(forces));
-  PetscCall(bulk_along(solve->physics, parameter->now, forces));
-  PetscCall(VecNorm(forces, NORM_INFINITY, &all_norm));
-  all_norm = PetscMax(all_norm, asked);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &all_norm, 1, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
-  if (all_norm > 0) solve->sensitivity->imbalance = PetscMax(solve->sensitivity->imbalance, free_norm / all_norm);
+  PetscCall(VecNorm(work, NORM_INFINITY, &left));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
+  if (largest > 0) solve->sensitivity->imbalance = PetscMax(solve->sensitivity->imbalance, left / largest);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -208,23 +208,21 @@ PetscErrorCode sensitivity_solve(Solve *solve, Vec x, PetscInt *status)
   PetscCall(DMGetGlobalVector(dm, &dx));
   for (PetscInt p = 0; p < all->n && !*status; p++) {
     Parameter *parameter = &all->parameters[p];
-    PetscReal  asked;
-    PetscCall(prescribed(solve->physics, parameter));
-    PetscCall(change(solve, parameter, PETSC_FALSE, all->forces, status));
+    PetscReal  asked, answered;
+    PetscCall(ask(solve, parameter, all->forces, status));
     if (*status) break;
     PetscCall(VecZeroEntries(r));
     PetscCall(DMLocalToGlobalBegin(dm, all->forces, ADD_VALUES, r));
     PetscCall(DMLocalToGlobalEnd(dm, all->forces, ADD_VALUES, r));
-    PetscCall(hold_redundant(solve, r));
+    PetscCall(VecZeroEntries(dx));
+    PetscCall(redundant_residual(solve, dx, r)); /* what is left out keeps its value */
     PetscCall(VecScale(r, -1));
     PetscCall(VecNorm(r, NORM_INFINITY, &asked));
     PetscCall(KSPSolve(ksp, r, dx));
-    PetscCall(DMGlobalToLocalBegin(dm, dx, INSERT_VALUES, parameter->now)); /* touches the equations only */
-    PetscCall(DMGlobalToLocalEnd(dm, dx, INSERT_VALUES, parameter->now));
-    PetscCall(change(solve, parameter, PETSC_TRUE, all->forces, status));
+    PetscCall(answer(solve, parameter, dx, all->forces, &answered, status));
     if (*status) break;
     PetscCall(reactions(solve->physics, all->forces, parameter->reactions));
-    PetscCall(measure(solve, parameter, asked, all->forces, r));
+    PetscCall(measure(solve, PetscMax(asked, answered), all->forces, r));
   }
   PetscCall(DMRestoreGlobalVector(dm, &dx));
   PetscCall(DMRestoreGlobalVector(dm, &r));
