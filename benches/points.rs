@@ -1,4 +1,4 @@
-//! What deciding at points costs (docs/formulation.md 16): residual and values of a plan, over those of dual multipliers at nodes, where
+//! What deciding at points costs (docs/formulation 16): residual and values of a plan, over those of dual multipliers at nodes, where
 //! all facets are closed, all are open, and a border cuts a row of them. Patches of `patches.rs`, without friction and with it, frozen weights.
 //!
 //!     cargo bench --bench points

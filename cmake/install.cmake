@@ -49,7 +49,7 @@ if(TARGET stickslip_mpi)
 endif()
 install(FILES README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md SUPPORT.md LICENSE-MIT LICENSE-APACHE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 file(GLOB host_pages docs/host_*.md)
-install(FILES ${host_pages} docs/first_program.md docs/plug_in.md docs/formulation.md docs/abi.md docs/compose.md docs/gradients.md docs/general_contact.md docs/accuracy.md docs/exact.md docs/cells.md docs/other_programs.md docs/border.md docs/points.md docs/stability.md docs/glossary.md
+install(FILES ${host_pages} docs/first_program.md docs/plug_in.md docs/abi.md docs/compose.md docs/gradients.md docs/general_contact.md docs/accuracy.md docs/exact.md docs/cells.md docs/other_programs.md docs/border.md docs/points.md docs/stability.md docs/glossary.md
   docs/scaling.md docs/other_hosts.md docs/feap.md docs/energy_norm.md docs/method.md docs/dynamics.md docs/without_pivoting.md
   DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs")
 install(FILES ARCHITECTURE.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
@@ -60,6 +60,7 @@ install(DIRECTORY c_examples/fortran DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_exam
 # The driver as something to read, its scenes and their meshes: the guides name them.
 install(DIRECTORY c_examples/snes_contact c_examples/scenes c_examples/meshes DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_examples"
   FILES_MATCHING PATTERN "*.c" PATTERN "*.h" PATTERN "*.yaml" PATTERN "*.msh" PATTERN "*.geo" PATTERN "*.py" PATTERN "*.sh" PATTERN "*.md")
+install(DIRECTORY docs/formulation DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs")
 install(DIRECTORY docs/figures/ DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs/figures")
 
 # The driver as a program, which has the library within it.

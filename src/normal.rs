@@ -1,4 +1,4 @@
-//! Averaged nodal normals (docs/formulation.md 4.1) and their derivatives (11.1): nu_A is minus the normalised, unweighted
+//! Averaged nodal normals (docs/formulation 4.1) and their derivatives (11.1): nu_A is minus the normalised, unweighted
 //! sum of the unit corner normals of the non-mortar facets at A, so it points INTO the non-mortar body.
 
 use crate::error::{Error, Kind, Result};

@@ -23,7 +23,11 @@ fenced { print; next }
 
 {
     gsub(/\]\(#/, "](#" page "-")
-    while (match($0, /\]\([a-z_]+\.md#/)) replace("](#" substr($0, RSTART + 2, RLENGTH - 6) "-")
+    while (match($0, /\]\([a-z0-9_\/]+\.md#/)) {
+        target = substr($0, RSTART + 2, RLENGTH - 6)
+        sub(/.*\//, "", target)
+        replace("](#" target "-")
+    }
     while (match($0, /\]\(\.\.\/[^)]*\)/)) replace("] (" substr($0, RSTART + 5, RLENGTH - 6) ")")
 }
 

@@ -162,7 +162,7 @@ pub unsafe extern "C" fn stickslip_interface_condensed_residual(
 /// A piece of the matrix of a system without multipliers as triplets in displacement equations. With K the host's own matrix,
 /// T the piece FORCES, E the piece ELIMINATION and G the piece CONSTRAINTS, and J = K + T, the matrix is J + E J + G. Its step is
 /// that of the system with multipliers from these multipliers. With the piece SCALES added it is the exact derivative of the
-/// residual whose multipliers follow from the displacements, but for what docs/formulation.md 11.2 leaves out with NORMALS_CURRENT
+/// residual whose multipliers follow from the displacements, but for what docs/formulation 11.2 leaves out with NORMALS_CURRENT
 /// and one multiplier a node: without it Newton's method may cycle where surfaces slip with weights of now. Not symmetric.
 ///
 /// x1 (3 n1), x2 (3 n2): positions [L]; lambda (n1 multipliers) [F/L^2], as for the residual; piece: STICKSLIP_CONDENSED_...

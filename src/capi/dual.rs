@@ -44,7 +44,7 @@ fn basis_of(one: &Facet, x: &str, mass: *const f64) -> Result<Option<DualBasis>>
 }
 
 /// Stage 1b: what makes the weights of a facet's pairs those of dual multipliers, from the sum of n_ab over all of its
-/// pairs. docs/formulation.md 10.1.
+/// pairs. docs/formulation 10.1.
 ///
 /// n: 3 or 4; x: 3 n coordinates of the non-mortar facet [L]; mass (n x n): the sum of n_ab of `stickslip_pair_weights`
 /// [L^2]. Outputs, each may be NULL: fade (1) [-], phi: 1, less where below 1 % of the facet is covered, 0 below 0.01 %;
@@ -83,7 +83,7 @@ pub unsafe extern "C" fn stickslip_facet_dual(
 }
 
 /// Stage 1b: a pair's share of the dual weights. They take the place of the pair's weights in `stickslip_pair_gap`, in the
-/// coverage of nodes, in `stickslip_pair_residual`, and as weights of t_n. docs/formulation.md 10.2.
+/// coverage of nodes, in `stickslip_pair_residual`, and as weights of t_n. docs/formulation 10.2.
 ///
 /// pair: quadrature and layout are not read. mass (n1 x n1): the sum of n_ab over all pairs of the non-mortar facet [L^2];
 /// n_ab (n1 x n1), n_ac (n1 x n2): the pair's own, of `stickslip_pair_weights` [L^2]. Outputs, each may be NULL: dual_ab

@@ -135,7 +135,7 @@ impl FacetPairs for Pairs<'_> {
 /// the node blocks of `stickslip_node_block` the sum over all facets is the whole tangent. It takes the place of
 /// `stickslip_pair_tangent`, which knows one pair: dual weights of a pair depend on all pairs of the facet. (Where weights
 /// are frozen, that function with dual weights and without derivatives is right. The augmented form couples all facets of a
-/// node; the interface handle assembles it.) docs/formulation.md 10.4.
+/// node; the interface handle assembles it.) docs/formulation 10.4.
 ///
 /// facet: rows and columns are x1 (3 n1), x2 of one mortar facet after the other, lambda (3 n1). A node of several mortar
 /// facets has rows and columns with each: add them up. n_ab (n_pairs x n1 x n1), n_ac (n1 x n2 of each pair, one pair

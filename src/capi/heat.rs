@@ -103,7 +103,7 @@ fn read_heat(p: *const stickslip_heat) -> Result<Conductance> {
 /// Heat that leaves the nodes of both sides, what to ADD to the host's internal heat flow (conduction and storage, less sources).
 /// With q_A of each non-mortar node: sum_A n_AB q_A at the non-mortar, - sum_A n_AC q_A at the mortar nodes, less friction's heat.
 /// All of it sums up to minus the heat of friction: what leaves one body enters the other one. A linear temperature over meshes
-/// that do not match passes exactly. docs/formulation.md, 17.
+/// that do not match passes exactly. docs/formulation, 17.
 ///
 /// x1 (3 n1), x2 (3 n2), lambda (3 n1): as for `stickslip_interface_states`; before the commit, as there. heat: see there.
 /// temperatures1 (n1), temperatures2 (n2) [K], from any zero. An analytic mortar side has temperatures at the points of its frame: one value
@@ -182,7 +182,7 @@ fn read_temperatures<'a>(
 /// The exact tangent of `stickslip_interface_heat` as triplets in the host's equation numbers and index base: by rows, which are the
 /// temperatures' equations, each entry once (as often as nodes share equations). For Newton's method in which temperatures, displacements and
 /// multipliers are solved for together: forces have no columns of temperatures, so that the rest of that matrix is
-/// `stickslip_interface_tangent_coo` and the host's own. docs/formulation.md, 17.2.
+/// `stickslip_interface_tangent_coo` and the host's own. docs/formulation, 17.2.
 ///
 /// x1, x2, lambda, heat, temperatures1, temperatures2: as for `stickslip_interface_heat`. equations1 (n1), equations2 (n2): of the temperatures, one a node, in
 /// the index base; -1: prescribed. which: STICKSLIP_HEAT_TEMPERATURES, or STICKSLIP_HEAT_ALL: with columns of the displacements and
@@ -260,7 +260,7 @@ fn read_equations(p: *const i64, n: usize, base: i64, name: &str) -> Result<Vec<
 /// STICKSLIP_HEAT_SLOPES, or NULL): their derivatives by these five numbers, side by side; conductance (1, or NULL) [F/(L T K)].
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a member of heat, an area that is not positive, a negative pressure).
-/// Cost: below a microsecond; allocates nothing. docs/formulation.md, 17.1.
+/// Cost: below a microsecond; allocates nothing. docs/formulation, 17.1.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_node_heat(
     heat: *const stickslip_heat,

@@ -9,7 +9,7 @@ use crate::error::{Error, Kind};
 /// Accepts a converged step: (x1, x2, lambda) becomes t_n; weights, normals, coverage and slip move on.
 ///
 /// Where the mortar surface lies in layers, the nearest facets over each non-mortar facet are its pairs until the next commit
-/// (docs/formulation.md 6.6); the creation, `stickslip_interface_set_previous` and `stickslip_interface_set_committed` settle it, too.
+/// (docs/formulation 6.6); the creation, `stickslip_interface_set_previous` and `stickslip_interface_set_committed` settle it, too.
 ///
 /// Inputs x1, x2, lambda, sums as for `stickslip_interface_states`.
 ///

@@ -37,7 +37,7 @@ pub const STICKSLIP_WEIGHTS_COMMITTED: i32 = 2;
 pub const STICKSLIP_WEIGHTS_REFERENCE: i32 = 3;
 /// Weights and normals of now, and gaps that are functions of the places alone. A step closes them up to what the last one has left, and its
 /// forces work exactly what they change by: nothing gains and nothing sinks, whatever slides and turns. For dynamics whose displacements follow
-/// the mean of the velocities. Multipliers and `normal` are along the normals half way between t_n and now (docs/formulation.md 21).
+/// the mean of the velocities. Multipliers and `normal` are along the normals half way between t_n and now (docs/formulation 21).
 /// Not with (UNSUPPORTED): the paper's slip measure (STICKSLIP_SLIP_PAPER); points that decide (STICKSLIP_DECISION_POINTS);
 /// the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (method.element_points); nodes that others
 /// carry (weak_coverage > 0, the default of dual multipliers); an analytic mortar side whose frame has equations; normals of
@@ -120,7 +120,7 @@ pub const STICKSLIP_TANGENT_FROZEN_WEIGHTS: i32 = 1;
 pub const STICKSLIP_TANGENT_FROZEN_NORMALS: i32 = 2;
 /// A node is closed or open. Default.
 pub const STICKSLIP_DECISION_NODES: i32 = 0;
-/// Each point of an overlap is closed or open (docs/formulation.md 16): the border of the contact lies inside facets. modulus is needed,
+/// Each point of an overlap is closed or open (docs/formulation 16): the border of the contact lies inside facets. modulus is needed,
 /// and is E* of both bodies together: 1 / E* = (1 - nu1^2) / E1 + (1 - nu2^2) / E2, of a rigid one without its part. The answer depends
 /// on it, by what vanishes with the facets' size. An augmentation beside it takes the place of r = 0.9 E* / h_A alone; r is then part of the
 /// answer, too.

@@ -1,4 +1,4 @@
-//! Normals of the current configuration: of an interface, and stage by stage (docs/formulation.md 11).
+//! Normals of the current configuration: of an interface, and stage by stage (docs/formulation 11).
 
 use super::facet::facet;
 use super::guard::guard;

@@ -51,7 +51,7 @@ unsafe impl Sized64 for stickslip_rigid_body {
 /// Moments are about the reference point, of forces at the nodes of the motion. Default.
 pub const STICKSLIP_RIGID_ARMS_END: i32 = 0;
 /// Moments have the means of a node's arms at t_n and at the motion: the work of forces that are constant in a step is that of their sum over u
-/// and of this moment over 2 tan(|theta| / 2) theta / |theta|, exactly. For dynamics (docs/formulation.md 14.7).
+/// and of this moment over 2 tan(|theta| / 2) theta / |theta|, exactly. For dynamics (docs/formulation 14.7).
 pub const STICKSLIP_RIGID_ARMS_MIDDLE: i32 = 1;
 
 /// The motion of a rigid body since the first configuration: x = P + u + exp[theta] R (X - P). A host keeps theta among its
@@ -156,7 +156,7 @@ fn six(b: &stickslip_rigid_body, dimension: usize, base: i64) -> Result<[i64; SI
     Ok(if dimension == 2 { [e[0], e[1], -1, -1, -1, e[2]] } else { [e[0], e[1], e[2], e[3], e[4], e[5]] })
 }
 
-/// Positions of a rigid body's nodes, docs/formulation.md 14.1: what the functions of an interface take for x1 or x2.
+/// Positions of a rigid body's nodes, docs/formulation 14.1: what the functions of an interface take for x1 or x2.
 ///
 /// body, motion: see there. Output: x (dimension n_nodes), node by node [L].
 ///
@@ -184,7 +184,7 @@ pub unsafe extern "C" fn stickslip_rigid_positions(
     })
 }
 
-/// Force and moment about the reference point as it is now, of forces on a rigid body's nodes, docs/formulation.md 14.3: what a host
+/// Force and moment about the reference point as it is now, of forces on a rigid body's nodes, docs/formulation 14.3: what a host
 /// adds to the equations of the body in place of the nodal forces of `stickslip_interface_residual`, with the same sign.
 ///
 /// body, motion: see there; forces (dimension n_nodes), node by node [F]. Output: resultant (6): force along x, y, z [F], moment
@@ -236,7 +236,7 @@ pub unsafe extern "C" fn stickslip_rigid_turn(motion: *mut stickslip_rigid_motio
 }
 
 /// Finds where the entries of a nodal matrix go where rigid bodies have equations of their reference points: rows and columns of their
-/// nodes become six, docs/formulation.md 14.4. The nodal matrix is a tangent of an interface by `stickslip_interface_plan_coo` or
+/// nodes become six, docs/formulation 14.4. The nodal matrix is a tangent of an interface by `stickslip_interface_plan_coo` or
 /// `stickslip_interface_tangent_coo`, a piece of a condensed one, those of several interfaces one after the other, or element
 /// matrices of the host's; its other entries stay as they are. Multipliers of a rigid non-mortar side stay those of its nodes.
 ///
@@ -328,7 +328,7 @@ pub unsafe extern "C" fn stickslip_rigid_coo(
 }
 
 /// The values of the entries that `stickslip_rigid_coo` gives: exact derivatives, by the unknowns of the bodies, of forces, of moments about
-/// the reference points as they are now, and of all other rows. docs/formulation.md 14.4.
+/// the reference points as they are now, and of all other rows. docs/formulation 14.4.
 ///
 /// rigid: what `stickslip_rigid_create` made; motions: one of each body; forces: of the bodies' nodes, body by body, each dimension n_nodes, as for
 /// `stickslip_rigid_resultant` [F]: their arms turn with the body; nodal (n_entries; NULL where there are none): the nodal matrix

@@ -147,7 +147,7 @@ fn scatter<const K: usize>(parts: &[Part<*mut f64>; K], all: &[f64], name: &str)
 }
 
 /// How the residual depends on the positions of t_n, as triplets in the host's equation numbers and index base: rows are the equations of
-/// the residual, columns those of the displacements. For gradients of a run (docs/gradients.md, docs/formulation.md 18): with K_n the
+/// the residual, columns those of the displacements. For gradients of a run (docs/gradients.md, docs/formulation 18): with K_n the
 /// tangent of step n and B_n this matrix, both at its end and before its commit (or after `stickslip_interface_set_committed` of t_n),
 /// K_n^T a_n = - dj/d(u_n, lambda_n) - B_{n+1}^T a_{n+1}, backwards. Entries that are given twice add up.
 ///

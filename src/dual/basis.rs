@@ -1,4 +1,4 @@
-//! The dual basis of a facet and what follows from it for values (docs/formulation.md 10.1, 10.2):
+//! The dual basis of a facet and what follows from it for values (docs/formulation 10.1, 10.2):
 //!
 //! psi_A = sum_B a_AB N_B, a_AB = m_A (m^-1)_AB, which is biorthogonal over the covered part:
 //! int psi_A N_B da = m_A where A = B, 0 elsewhere.

@@ -1,4 +1,4 @@
-//! The rows of a facet's mortar nodes, of all of its pairs together (docs/formulation.md 10.4). The part
+//! The rows of a facet's mortar nodes, of all of its pairs together (docs/formulation 10.4). The part
 //! -sum_B n_BC D(phi q_B) of Df_C couples all of these nodes with all nodes of the facet, so that the pairs' own parts stand
 //! in entries that are there anyway, and are added to them.
 //!

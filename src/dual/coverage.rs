@@ -1,4 +1,4 @@
-//! How much of a facet is covered, and how facets that hardly are fade out (docs/formulation.md 10.5).
+//! How much of a facet is covered, and how facets that hardly are fade out (docs/formulation 10.5).
 
 use crate::geometry::Vec3;
 use crate::mortar::NonmortarFrame;

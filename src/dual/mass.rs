@@ -1,4 +1,4 @@
-//! The matrix m_AB of a facet, the sum of n_AB over its pairs, and systems with it (docs/formulation.md 10.6).
+//! The matrix m_AB of a facet, the sum of n_AB over its pairs, and systems with it (docs/formulation 10.6).
 //!
 //! Cholesky's factors are those of the matrix scaled to a unit diagonal. A facet that is covered along one edge has
 //! diagonals that differ by powers of the width, and no other ill condition: scaled, its condition is below 200 at any

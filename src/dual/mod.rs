@@ -1,5 +1,5 @@
 //! Dual multipliers: the stage of a facet, between the integration over pairs and the law of a node
-//! (docs/formulation.md 10). All of it is functions of plain data of one non-mortar facet:
+//! (docs/formulation 10). All of it is functions of plain data of one non-mortar facet:
 //!
 //! - values: [`FacetSums`] adds up the facet's pairs, [`DualBasis`] gives dual weights, heights and tractions;
 //! - derivatives: the kernels of `mortar` give those of a pair at the facet's heights and tractions, [`FacetMotion`]

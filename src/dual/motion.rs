@@ -1,4 +1,4 @@
-//! Exact derivatives of a facet's stage, pair by pair (docs/formulation.md 10.4).
+//! Exact derivatives of a facet's stage, pair by pair (docs/formulation 10.4).
 //!
 //! Every derivative of the stage is linear in those of m_AB, gamma_A and |e|, with m^-1, h, q held fixed, and so it is a
 //! sum over the facet's pairs: each pair has its share, with respect to its own nodes alone. The kernels of `mortar` give

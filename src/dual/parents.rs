@@ -1,4 +1,4 @@
-//! Dual multipliers at the corners of a quadratic facet (docs/formulation.md 12.6). The linear functions of its corners are sums of
+//! Dual multipliers at the corners of a quadratic facet (docs/formulation 12.6). The linear functions of its corners are sums of
 //! its own, N^lin_B = sum_k c_Bk N_k, so that the matrix m_AB = int N^lin_A N^lin_B follows from its weights, and from it the basis
 //! as that of a linear facet.
 

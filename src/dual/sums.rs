@@ -1,4 +1,4 @@
-//! What a facet adds up over its pairs (docs/formulation.md 10.2).
+//! What a facet adds up over its pairs (docs/formulation 10.2).
 
 use super::coverage::{Coverage, whole_area};
 use crate::mortar::{NonmortarFrame, PairWeights, Segment, height_gap};

@@ -1,4 +1,4 @@
-//! A facet against an analytic surface (docs/formulation.md 10.8): one pair, which covers all of the facet at any
+//! A facet against an analytic surface (docs/formulation 10.8): one pair, which covers all of the facet at any
 //! position, and gaps G_A = int N_A (x - y) da that do not lie along one direction. What 10.2 and 10.4 say of heights holds
 //! for each component i of the gaps,
 //!

@@ -1,4 +1,4 @@
-//! The exact tangent of one facet with dual multipliers, of all its pairs together (docs/formulation.md 10.4), given the
+//! The exact tangent of one facet with dual multipliers, of all its pairs together (docs/formulation 10.4), given the
 //! nodal states: for hosts that assemble facet by facet. Multiplier form; the mortar side moves.
 //!
 //! A pair's share of the facet's derivatives has columns of its own nodes alone, and is emitted pair by pair. What couples

@@ -1,4 +1,4 @@
-//! What a facet's tangent must know of its pairs, and their sums (docs/formulation.md 10.2).
+//! What a facet's tangent must know of its pairs, and their sums (docs/formulation 10.2).
 
 use crate::dual::FacetSums;
 use crate::error::{Error, Kind, Result};

@@ -1,5 +1,5 @@
 //! Gap, forces and tangent of a pair of facets as hosts have them: triangles, quadrilaterals and lines, linear or quadratic (paper
-//! (11), (23), (29)-(31); docs/formulation.md 12.4, 13.4). They are sums over the nodes of both sides, for gaps of a quadratic pair
+//! (11), (23), (29)-(31); docs/formulation 12.4, 13.4). They are sums over the nodes of both sides, for gaps of a quadratic pair
 //! are not along a normal. D is the number of components of a position.
 
 use super::response::NodeTangent;

@@ -1,4 +1,4 @@
-//! A pair of facets of a solid as hosts have them, linear or quadratic (docs/formulation.md 12.4): its formulas are those of
+//! A pair of facets of a solid as hosts have them, linear or quadratic (docs/formulation 12.4): its formulas are those of
 //! `nodal.rs`.
 
 use super::nodal::{NodalPair, column_force};

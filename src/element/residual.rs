@@ -1,4 +1,4 @@
-//! A pair's nodal forces in internal-force sign (paper (23), first two rows; docs/formulation.md 5.1):
+//! A pair's nodal forces in internal-force sign (paper (23), first two rows; docs/formulation 5.1):
 //! f_B = sum_A n_AB t_A, f_C = -sum_A n_AC t_A with t the multiplier (multiplier form) or the projected
 //! traction (augmented form). The force ON the non-mortar body is -f_B.
 

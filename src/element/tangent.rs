@@ -1,4 +1,4 @@
-//! A pair's share of the exact tangent, given the nodal states (paper (29)-(31); docs/formulation.md 5.3):
+//! A pair's share of the exact tangent, given the nodal states (paper (29)-(31); docs/formulation 5.3):
 //!
 //! - force rows: Df_B = sum_A Dn_AB t_A + n_AB Dt_A, Df_C = -sum_A (Dn_AC t_A + n_AC Dt_A);
 //!   here Dn t; n itself, for the multiplier columns (Dt = Dlambda in the multiplier form), is the pair's weights

@@ -1,5 +1,5 @@
 //! The plane map y = a + b xi + c eta + d xi eta of a projected facet and its inverse in closed form
-//! (docs/formulation.md 2.2). No iteration: one square root and one division a point.
+//! (docs/formulation 2.2). No iteration: one square root and one division a point.
 
 use super::projection::Projection;
 use super::vector::{Vec2, cross};

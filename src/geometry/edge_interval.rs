@@ -1,4 +1,4 @@
-//! Which part of a source edge lies inside the other facet (docs/formulation.md 3.5).
+//! Which part of a source edge lies inside the other facet (docs/formulation 3.5).
 //!
 //! Liang-Barsky on signed distances that are taken from differences of the nodes in space, never from
 //! the clipped polygon. Mortar lines and edges are evaluated from the end that comes first,

@@ -1,4 +1,4 @@
-//! Signed distances of points that lie nearly on a line, in twice the precision of a double (docs/formulation.md
+//! Signed distances of points that lie nearly on a line, in twice the precision of a double (docs/formulation
 //! 3.7).
 //!
 //! Where two edges cross at a small angle, the crossing's parameter tau = d0 / (d0 - d1) is known to the error of the

@@ -1,4 +1,4 @@
-//! The auxiliary plane of a non-mortar facet and its derivative (docs/formulation.md 3.1).
+//! The auxiliary plane of a non-mortar facet and its derivative (docs/formulation 3.1).
 //!
 //! Through the mean of the nodes, normal e along the facet's normal at its centre. The in-plane frame
 //! follows the first spanning vector and its spin is kept, so that translation and rotation

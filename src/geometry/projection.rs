@@ -1,5 +1,5 @@
 //! A facet projected on an auxiliary plane: y_k = (t1 . z_k, t2 . z_k), height d_k = e . z_k,
-//! z_k = x_k - x0 (docs/formulation.md 2.1). Sides are ordered counter-clockwise in the plane.
+//! z_k = x_k - x0 (docs/formulation 2.1). Sides are ordered counter-clockwise in the plane.
 
 use super::facet::Facet;
 use super::plane::Plane;

@@ -1,5 +1,5 @@
 //! A system without multipliers through the handle: what a host multiplies and adds, in pieces or in place, and the
-//! multipliers back (docs/formulation.md 10.7).
+//! multipliers back (docs/formulation 10.7).
 
 use super::compose::Feature;
 use super::condensed::elimination::{Elimination, Row, widened};

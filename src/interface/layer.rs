@@ -1,4 +1,4 @@
-//! What lies between the surfaces, through the handle (docs/formulation.md 20).
+//! What lies between the surfaces, through the handle (docs/formulation 20).
 
 use super::compose::Feature;
 use super::contact::Contact;

@@ -1,4 +1,4 @@
-//! Two surfaces in contact: search, pairing, all four stages, history (docs/formulation.md 4.5).
+//! Two surfaces in contact: search, pairing, all four stages, history (docs/formulation 4.5).
 //!
 //! Residual and tangent are functions of (x, lambda, committed history) alone. Below the ABI nothing else allocates but
 //! `adjacency`, which it calls.

@@ -1,4 +1,4 @@
-//! Offsets of the nodes through the handle (docs/formulation.md 15), and what goes into them: nodes that are put onto the other
+//! Offsets of the nodes through the handle (docs/formulation 15), and what goes into them: nodes that are put onto the other
 //! surface, and facets that are given back their shape.
 
 use super::compose::Feature;

@@ -1,4 +1,4 @@
-//! A law of one's own through the handle: what it is, and what it remembers (docs/formulation.md 4.8).
+//! A law of one's own through the handle: what it is, and what it remembers (docs/formulation 4.8).
 
 use super::compose::Feature;
 use super::contact::Contact;

@@ -1,4 +1,4 @@
-//! Derivatives of a residual by what it depends on besides the unknowns, through the handle (docs/formulation.md 18): as a matrix, from
+//! Derivatives of a residual by what it depends on besides the unknowns, through the handle (docs/formulation 18): as a matrix, from
 //! the left (an adjoint), from the right (a direction).
 
 use super::compose::Feature;

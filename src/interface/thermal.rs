@@ -1,4 +1,4 @@
-//! Heat through the handle (docs/formulation.md 17).
+//! Heat through the handle (docs/formulation 17).
 
 use super::compose::Feature;
 use super::contact::Contact;

@@ -1,5 +1,5 @@
 //! Normals that follow the motion, through the handle: which of them evaluations use, and multipliers to start a step with
-//! (docs/formulation.md 11.3, 11.4).
+//! (docs/formulation 11.3, 11.4).
 
 use super::contact::Contact;
 use super::data::node_data::check_length;

@@ -1,5 +1,5 @@
 //! A bond between the surfaces (adhesion, glue, a cohesive zone): traction against opening and slip, up to a strength and down again to
-//! nothing, which does not come back (docs/formulation.md 20.2). With delta = delta_n nu + delta_t, beta the shear strength over that in
+//! nothing, which does not come back (docs/formulation 20.2). With delta = delta_n nu + delta_t, beta the shear strength over that in
 //! tension and delta_e = sqrt(max(0, delta_n)^2 + beta^2 |delta_t|^2)
 //!
 //! T = (1 - D) K (max(0, delta_n) nu + beta^2 delta_t),   D = D(kappa), kappa the largest delta_e so far:

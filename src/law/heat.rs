@@ -1,4 +1,4 @@
-//! Heat through one non-mortar node (docs/formulation.md 17): what passes from the non-mortar to the mortar body per area,
+//! Heat through one non-mortar node (docs/formulation 17): what passes from the non-mortar to the mortar body per area,
 //!
 //! q_A = h J_A / W_A,   h = h0 f(P / p0) + (h1 + kg / (g + g0)) b(g / reach),
 //!

@@ -1,4 +1,4 @@
-//! What lies between the surfaces, or becomes of them, beside a law of friction (docs/formulation.md 20): a layer that yields under
+//! What lies between the surfaces, or becomes of them, beside a law of friction (docs/formulation 20): a layer that yields under
 //! pressure, wear, a bond. It is no law of its own. It changes what the law is asked: the law sees
 //!
 //! g + nu m d   in place of g,   lambda - T   in place of lambda,

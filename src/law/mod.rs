@@ -1,9 +1,9 @@
 //! The nodal contact law: from the assembled weighted gaps and the multiplier of one non-mortar node to
 //! its state, its projected traction and their derivatives (paper (17), (18), (22)-(31) as corrected in
-//! docs/formulation.md 1.3). Knows no geometry: a node is vectors and numbers.
+//! docs/formulation 1.3). Knows no geometry: a node is vectors and numbers.
 //!
 //! One projection per node, from the gap that is summed over all pairs: the projection is not linear,
-//! so projecting pair by pair would make the answer depend on the augmentation (docs/formulation.md
+//! so projecting pair by pair would make the answer depend on the augmentation (docs/formulation
 //! 4.5).
 //!
 //! A law is a type: [`Coulomb`] (with an infinite coefficient: rough), [`Frictionless`], [`Tied`], [`Tresca`]; what the rest of the

@@ -55,7 +55,7 @@ pub struct Node<const N: usize = 3> {
     pub special: Special,
 }
 
-/// How a law's answer for one node turns with its normal (docs/formulation.md 11.2).
+/// How a law's answer for one node turns with its normal (docs/formulation 11.2).
 #[derive(Clone, Copy, Debug)]
 pub struct Turn<const N: usize = 3> {
     /// dp/dnu [F/L^2].

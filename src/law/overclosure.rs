@@ -1,5 +1,5 @@
 //! Pressure-overclosure: a layer that yields under pressure (coatings, asperities, gaskets), as a table of overclosures h and the
-//! pressures P that they take, straight lines in between and beyond both ends (docs/formulation.md 20.1).
+//! pressures P that they take, straight lines in between and beyond both ends (docs/formulation 20.1).
 
 use crate::error::{Error, Kind, Result};
 use crate::memory::{self, Store};

@@ -1,5 +1,5 @@
 //! Laws beside Coulomb's that a host gives to an interface: thresholds k(sigma_N, slip, state) and, of the orthotropic one, an
-//! ellipse (docs/formulation.md 4.8). Their numbers in histories follow those of the table's laws.
+//! ellipse (docs/formulation 4.8). Their numbers in histories follow those of the table's laws.
 
 use super::projection::Threshold;
 use super::question::{Answer, Question};

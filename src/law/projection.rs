@@ -1,4 +1,4 @@
-//! The augmented traction's projection on the friction cone (paper (22), (24); docs/formulation.md 4.3):
+//! The augmented traction's projection on the friction cone (paper (22), (24); docs/formulation 4.3):
 //!
 //! - gap:   sigma_N >= 0 or uncovered:         p = 0
 //! - stick: |sigma_T| < k (1 - tie):           p = sigma_N nu + sigma_T

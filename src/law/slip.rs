@@ -1,4 +1,4 @@
-//! Three measures of the weighted slip increment g_T of a step (docs/formulation.md 4.2). With
+//! Three measures of the weighted slip increment g_T of a step (docs/formulation 4.2). With
 //! g[n, x]_A = sum_B n_AB x_B - sum_C n_AC x_C and P = I - nu nu^T:
 //!
 //! - objective: P (g[n_n, x_{n+1}] - g[n_{n+1}, x_{n+1}])

@@ -1,4 +1,4 @@
-//! Mesh tying (docs/formulation.md 4.6): a covered node keeps its place over the mortar side, c = g - g_0 with the weights
+//! Mesh tying (docs/formulation 4.6): a covered node keeps its place over the mortar side, c = g - g_0 with the weights
 //! and the gap g_0 of the first configuration. No inequality, no state. An open g_0 turns with the non-mortar facets
 //! (`interface/data/facet_gaps.rs`); closed surfaces are linear. An uncovered node has no traction.
 //!

@@ -1,4 +1,4 @@
-//! How far a node is from the contact conditions, in lengths and tractions that vanish in equilibrium (docs/formulation.md
+//! How far a node is from the contact conditions, in lengths and tractions that vanish in equilibrium (docs/formulation
 //! 4.7). Nothing of it knows the augmentation, which decides how Newton's method gets there.
 //!
 //! With gbar = g_N / m, the mean gap over the covered area m, s = g_T / m(t_n), the slip, and the law's threshold k at

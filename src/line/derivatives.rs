@@ -1,4 +1,4 @@
-//! The exact derivatives of the weights of a pair of lines (docs/formulation.md 13.3). With v1 and v2, how fast the parts' points
+//! The exact derivatives of the weights of a pair of lines (docs/formulation 13.3). With v1 and v2, how fast the parts' points
 //! move along t, linear between the parts' nodes:
 //!
 //! Dn_AC = int [ -(N_A' v1 N_C + N_A N_C' v2) rho + N_A N_C Drho ] ds + [ N_A N_C rho v ] at the ends,

@@ -1,4 +1,4 @@
-//! Two lines with two nodes each (docs/formulation.md 13.2, 13.3): what `weights.rs` and `derivatives.rs` do, with the functions of
+//! Two lines with two nodes each (docs/formulation 13.2, 13.3): what `weights.rs` and `derivatives.rs` do, with the functions of
 //! such lines. Lanes are the two components of a side's two nodes, the columns of a row of derivatives.
 
 use super::facet::MAX_LINE_NODES;

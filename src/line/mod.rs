@@ -1,5 +1,5 @@
 //! Facets of plane and axisymmetric models: lines with two or three nodes, the weights of their pairs and the exact derivatives
-//! (docs/formulation.md 13). Positions have two components, (x, y) or, axisymmetric, (r, z).
+//! (docs/formulation 13). Positions have two components, (x, y) or, axisymmetric, (r, z).
 
 mod closed;
 mod derivatives;

@@ -1,4 +1,4 @@
-//! Derivatives of the forces and gaps of a pair of lines, from those of its weights (paper (23), (11); docs/formulation.md 13.3),
+//! Derivatives of the forces and gaps of a pair of lines, from those of its weights (paper (23), (11); docs/formulation 13.3),
 //! in the form that a pair of parts of quadratic facets has: with z, where nothing happens.
 
 use super::derivatives::LineDerivatives;

@@ -1,4 +1,4 @@
-//! A part of a non-mortar line and one of a mortar line, projected on the first (docs/formulation.md 13.1):
+//! A part of a non-mortar line and one of a mortar line, projected on the first (docs/formulation 13.1):
 //!
 //! s_k = (x_k - x0) . t,  d_k = (x_k - x0) . e,  x0 the middle of the non-mortar part, t its direction, e across.
 //!
@@ -96,7 +96,7 @@ impl LineSegment {
     }
 
     /// What the frame's motion makes of derivatives f_k by s_k: (- t sum f_k / 2, e sum f_k d_k / L). With Ds_k as in
-    /// docs/formulation.md 13.3, a has their difference, b their sum, and every node besides t f_k.
+    /// docs/formulation 13.3, a has their difference, b their sum, and every node besides t f_k.
     #[inline]
     pub fn motion(&self, f: &[f64; NODES]) -> [Vec2; 2] {
         // a and b lie on t: their d is 0.

@@ -1,4 +1,4 @@
-//! The weights of a pair of lines (docs/formulation.md 13.2): n_AB = int N_A N_B rho ds, n_AC = int N_A N_C rho ds.
+//! The weights of a pair of lines (docs/formulation 13.2): n_AB = int N_A N_B rho ds, n_AC = int N_A N_C rho ds.
 
 use super::facet::{LineFacet, MAX_LINE_NODES, XI, ends};
 use super::linear;

@@ -1,4 +1,4 @@
-//! Derivatives where the mortar side is at rest (docs/formulation.md 3.8): of the forces and gaps of one non-mortar facet with respect to its own
+//! Derivatives where the mortar side is at rest (docs/formulation 3.8): of the forces and gaps of one non-mortar facet with respect to its own
 //! nodes, over all of its pairs at once. They are linear in the pairs' integrals and share plane and facet, so the
 //! integrals are added up first, and contracted and chained once a facet.
 //!

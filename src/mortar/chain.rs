@@ -1,5 +1,5 @@
 //! From the projected vertices to the nodes: the plane derivatives of `transport`, chained with Dy_k = in-plane part of
-//! (Dx_k - Dx0), spin and tilt of the plane (docs/formulation.md 3.2); and what comes out.
+//! (Dx_k - Dx0), spin and tilt of the plane (docs/formulation 3.2); and what comes out.
 
 use super::segment::{NonmortarFrame, Segment};
 use super::slots::{MORTAR, MORTAR_CORNER, PAIR_CORNERS, PAIR_NODES};

@@ -1,4 +1,4 @@
-//! The weights of the part of an overlap where a field is negative: those of the points where it is (docs/formulation.md 16.2). Where
+//! The weights of the part of an overlap where a field is negative: those of the points where it is (docs/formulation 16.2). Where
 //! the field is negative at all nodes they are the pair's own weights, to rounding: the points are the same.
 
 use super::pair_weights::PairWeights;

@@ -1,5 +1,5 @@
 //! The part of an overlap where a field sigma = sum_A N_A sigma_A of the non-mortar facet is negative, as a region of its own
-//! (docs/formulation.md 16.8), and the derivatives of integrals of sigma over it.
+//! (docs/formulation 16.8), and the derivatives of integrals of sigma over it.
 //!
 //! In the non-mortar facet's coordinates (xi, eta) sigma is bilinear, and a line xi = const is straight in the plane. So the region is
 //! cut into strips between those xi where the overlap has a vertex or sigma = 0 crosses its edge. In a strip each line xi = const has

@@ -1,4 +1,4 @@
-//! Derivatives of a pair's weights, forces and gaps with respect to its nodes (docs/formulation.md 3).
+//! Derivatives of a pair's weights, forces and gaps with respect to its nodes (docs/formulation 3).
 
 use super::chain::{Areas, Chain, Component, Flat, ForceDerivatives, ONE, SHAPES, WeightDerivatives, to_rows};
 use super::edges::Edges;

@@ -1,4 +1,4 @@
-//! The integrals over the edge parts that bound an overlap (docs/formulation.md 3.5): an edge's velocity is linear
+//! The integrals over the edge parts that bound an overlap (docs/formulation 3.5): an edge's velocity is linear
 //! along it, sum L_a Dy_a over its two ends. The functions of its own facet's fields are those of the map, so along
 //! it they are the same L_a; the other facet's come from the inverse map.
 

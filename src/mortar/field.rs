@@ -1,5 +1,5 @@
 //! Functions of a parent facet over one of its projected sub-facets: values and gradients in the plane
-//! (docs/formulation.md 12.2).
+//! (docs/formulation 12.2).
 //!
 //! With the sub-facet's coordinates eta, a point has the parent's coordinates xi = c0 + c1 eta_1 + c2 eta_2, and
 //! grad N_B = (d eta / dy)^T (d xi / d eta)^T grad_xi N_B.

@@ -1,5 +1,5 @@
 //! What the weights and gaps of a facet of the host against an analytic surface gain as the surface moves, and the surface's own weights
-//! as the facet moves (docs/formulation.md 14.5). The frame's points P_D move as a rigid body, and only of such motions is this the
+//! as the facet moves (docs/formulation 14.5). The frame's points P_D move as a rigid body, and only of such motions is this the
 //! derivative.
 //!
 //! At a fixed point x the closest point y moves by v(y) - Y v(x), with v(z) = sum w_D(z) DP_D and Y = Dy/Dx. So

@@ -3,7 +3,7 @@
 //!
 //! With the pair's own current weights g_A lies along the plane's normal, g_A = gamma_A e, because both
 //! inverse maps return the same in-plane point; so Dg_A = e Dgamma_A + gamma_A De: one scalar row a
-//! node, without cancellation of in-plane coordinates (docs/formulation.md 2.4).
+//! node, without cancellation of in-plane coordinates (docs/formulation 2.4).
 
 use super::chain::{AreaDerivatives, Chain, Columns, WeightDerivatives};
 use super::pair_weights::PairWeights;
@@ -129,7 +129,7 @@ impl AlongNormal {
 
 /// A mortar surface that is raised by the field sum_B N_B h_B, with h_B held fixed. Over it the gaps are
 /// gamma_A - sum_B n_AB h_B, and their derivatives Dgamma_A - sum_B Dn_AB h_B. The stage of a facet with dual multipliers
-/// asks for these, and for the derivatives of the covered areas (docs/formulation.md 10.4).
+/// asks for these, and for the derivatives of the covered areas (docs/formulation 10.4).
 #[derive(Debug)]
 pub struct Raised<'a> {
     /// h_B `[L]`.
@@ -150,7 +150,7 @@ pub(super) fn heights_over(frame: &NonmortarFrame, raised: &Option<Raised>) -> [
     heights
 }
 
-/// gamma_A of a pair with its current weights (docs/formulation.md 2.4) [L^3]; `two` is the mortar facet projected on the
+/// gamma_A of a pair with its current weights (docs/formulation 2.4) [L^3]; `two` is the mortar facet projected on the
 /// frame's plane.
 pub fn height_gap(frame: &NonmortarFrame, two: &Projection, weights: &PairWeights) -> [f64; MAX_CORNERS] {
     simd::dispatch(HeightGap { frame, two, weights })

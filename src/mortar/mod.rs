@@ -1,5 +1,5 @@
 //! Mortar integration of one facet pair: the overlap, the weights n_AB and n_AC, their exact
-//! derivatives, and the weighted gap (paper (11), (13); docs/formulation.md 2, 3). The same of a facet against an analytic
+//! derivatives, and the weighted gap (paper (11), (13); docs/formulation 2, 3). The same of a facet against an analytic
 //! surface, without an overlap.
 //!
 //! Knows no contact law. Nothing here allocates.

@@ -1,4 +1,4 @@
-//! The integrals over an overlap that its weights' derivatives consist of (docs/formulation.md 3.4):
+//! The integrals over an overlap that its weights' derivatives consist of (docs/formulation 3.4):
 //!
 //! Q1[m][k][C] = int (mu1_m / det1) N_k N_C, R[m][k][B] = int (mu1_m / det1) N_k N_B, Q2[m][l][A] = int (mu2_m / det2)
 //! N_l N_A,

@@ -1,4 +1,4 @@
-//! Derivatives of what offsets of the nodes add to the gaps of a pair (docs/formulation.md 15.2):
+//! Derivatives of what offsets of the nodes add to the gaps of a pair (docs/formulation 15.2):
 //!
 //! o_A = sum_B n_AB h_B + sum_C n_AC h_C [L^3],
 //!

@@ -1,4 +1,4 @@
-//! The overlap of a facet pair in the non-mortar facet's auxiliary plane (docs/formulation.md 2.3): a polygon for the volume
+//! The overlap of a facet pair in the non-mortar facet's auxiliary plane (docs/formulation 2.3): a polygon for the volume
 //! integrals, source-edge intervals for the edge integrals of the derivatives (3.5 there).
 
 use super::edges::intervals;

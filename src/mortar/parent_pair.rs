@@ -1,5 +1,5 @@
 //! A pair of facets as hosts have them, linear or quadratic: the sum over the pairs of their sub-facets
-//! (docs/formulation.md 12.2).
+//! (docs/formulation 12.2).
 
 use super::field::MultiplierSpace;
 use super::segment::{NonmortarFrame, Segment};
@@ -93,7 +93,7 @@ impl ParentFacet {
         if space == MultiplierSpace::Corner { self.parent.corners() } else { self.parent.n }
     }
 
-    /// Unit normal at node k, out of the body (docs/formulation.md 12.4).
+    /// Unit normal at node k, out of the body (docs/formulation 12.4).
     pub fn normal(&self, k: usize) -> Vec3 {
         self.area_vector(k).normalize()
     }

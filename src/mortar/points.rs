@@ -1,4 +1,4 @@
-//! The quadrature points of an overlap, four at a time: triangles of the polygon (docs/formulation.md 2.3) with the inverse
+//! The quadrature points of an overlap, four at a time: triangles of the polygon (docs/formulation 2.3) with the inverse
 //! maps of both facets (2.2).
 
 use super::segment::{NonmortarFrame, Segment};

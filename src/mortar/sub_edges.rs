@@ -1,4 +1,4 @@
-//! The integrals along edges of which the derivatives of a pair of sub-facets consist (docs/formulation.md 12.3), point by
+//! The integrals along edges of which the derivatives of a pair of sub-facets consist (docs/formulation 12.3), point by
 //! point: of every monomial times the tractions, or the positions, times the velocity of the edge.
 
 use super::sub_fields::Fields;

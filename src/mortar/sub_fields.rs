@@ -1,4 +1,4 @@
-//! Tractions and positions of a pair of sub-facets in monomials of the parents' coordinates (docs/formulation.md 12.1), the
+//! Tractions and positions of a pair of sub-facets in monomials of the parents' coordinates (docs/formulation 12.1), the
 //! three components in lanes.
 
 use super::field::MultiplierSpace;

@@ -1,4 +1,4 @@
-//! The integrals that the derivatives of a pair of sub-facets consist of (docs/formulation.md 12.3), contracted with tractions
+//! The integrals that the derivatives of a pair of sub-facets consist of (docs/formulation 12.3), contracted with tractions
 //! and with positions: over the overlap from moments (`sub_products.rs`). Those along edges: `sub_edges.rs`.
 
 use super::slots::MORTAR_CORNER;

@@ -1,4 +1,4 @@
-//! The moments over the overlap of two sub-facets that their derivatives consist of (docs/formulation.md 12.3): of monomials
+//! The moments over the overlap of two sub-facets that their derivatives consist of (docs/formulation 12.3): of monomials
 //! in the coordinates of both parents, (x1, y1) and (x2, y2), over the determinants of the sub-facets' maps.
 //!
 //! own[a b] = int x1^a y1^b / det1,  one[a b][t] = int x1^a y1^b mu_t(x2, y2) / det1,

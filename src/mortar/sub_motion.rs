@@ -1,4 +1,4 @@
-//! What a pair of sub-facets adds to a tangent (docs/formulation.md 12.3): derivatives of the forces of a field of tractions
+//! What a pair of sub-facets adds to a tangent (docs/formulation 12.3): derivatives of the forces of a field of tractions
 //! p = sum_A N_A p_A, and of the gaps of its multipliers, with respect to the sub-facets' nodes. The weights alone are
 //! differentiated: nodes that forces and gaps depend on through their own motion are the caller's.
 //!

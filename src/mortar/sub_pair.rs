@@ -1,4 +1,4 @@
-//! Weights of quadratic facets and their derivatives, over one pair of sub-facets (docs/formulation.md 12.2, 12.3).
+//! Weights of quadratic facets and their derivatives, over one pair of sub-facets (docs/formulation 12.2, 12.3).
 //!
 //! As in `weights.rs` and `transport.rs`, n_AB = int N_A N_B da and n_AC = int N_A N_C da over the overlap, but N_A, N_B and
 //! N_C are functions of the parents, while the velocity of a point is the sub-facet's, v = sum_k N^sigma_k Dy_k. Of a

@@ -1,4 +1,4 @@
-//! A sub-facet in its parent's coordinates (x, y) (docs/formulation.md 12.1): these are affine in its own, so the functions of
+//! A sub-facet in its parent's coordinates (x, y) (docs/formulation 12.1): these are affine in its own, so the functions of
 //! its map and det J times the gradients of x and y are polynomials in them, as the parent's functions are. Times 1 / det J
 //! everything in an integral of 12.3 is a polynomial, and the integral a sum of moments.
 //!

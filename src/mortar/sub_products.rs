@@ -1,4 +1,4 @@
-//! The integrals of products with the functions of a sub-facet's map, from moments (docs/formulation.md 12.3): with nu_s the
+//! The integrals of products with the functions of a sub-facet's map, from moments (docs/formulation 12.3): with nu_s the
 //! monomials of the multipliers N_A, mu_t those of N_B or N_C,
 //!
 //! int N_k d_c (nu_s mu1_t), int N_k (d_c nu_s) mu2_t, int N_l nu_s (d_c mu2_t).

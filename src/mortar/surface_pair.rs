@@ -1,4 +1,4 @@
-//! A part of a facet of the host, quadratic or a line, against an analytic surface (docs/formulation.md 12.7, 13.6): what `analytic.rs` is
+//! A part of a facet of the host, quadratic or a line, against an analytic surface (docs/formulation 12.7, 13.6): what `analytic.rs` is
 //! to linear facets.
 //!
 //! n_AB = int N_A N_B da, n_AC = int N_A w_C(y(x)) da over the part, x = sum N_B x_B the point of the parent and y the closest one to

@@ -1,4 +1,4 @@
-//! Derivatives with respect to the projected vertices, in transport form (docs/formulation.md 3.3): of the
+//! Derivatives with respect to the projected vertices, in transport form (docs/formulation 3.3): of the
 //! forces of a field p = sum_A N_A p_A on the non-mortar facet,
 //!
 //! f_B = int p N_B da, f_C = -int p N_C da,

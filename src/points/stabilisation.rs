@@ -1,4 +1,4 @@
-//! K: what keeps multipliers from alternating (docs/formulation.md 16.3), over the covered area of a facet:
+//! K: what keeps multipliers from alternating (docs/formulation 16.3), over the covered area of a facet:
 //! K_AB / m = (1/6) mean(h^2 grad N_A . grad N_B), h the nodes' sizes with the facet's own functions. Symmetric, at least 0, and its
 //! rows add up to nothing, so that constant multipliers are free of it.
 

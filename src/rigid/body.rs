@@ -1,4 +1,4 @@
-//! A rigid body: where a motion puts its nodes, and what their forces are at the reference point (docs/formulation.md 14.1,
+//! A rigid body: where a motion puts its nodes, and what their forces are at the reference point (docs/formulation 14.1,
 //! 14.3).
 
 use super::rotation::{check_rotation, cross, rotation, spin};

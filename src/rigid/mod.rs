@@ -1,4 +1,4 @@
-//! Rigid bodies: six equations of a reference point in place of those of nodes (docs/formulation.md 14).
+//! Rigid bodies: six equations of a reference point in place of those of nodes (docs/formulation 14).
 //!
 //! Functions of plain data. An interface knows nothing of them: it has positions of nodes, gives their forces, and its tangent
 //! has equations of nodes. `rotation` is of one body's rotation, `body` puts nodes where a motion has them and their forces

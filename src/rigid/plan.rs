@@ -1,5 +1,5 @@
 //! The entries of a matrix in which rigid bodies have equations of their reference points in place of those of their nodes:
-//! T^T K T + G (docs/formulation.md 14.4, equations R5 and R6). Where each value goes is found once; values then come as often as there are
+//! T^T K T + G (docs/formulation 14.4, equations R5 and R6). Where each value goes is found once; values then come as often as there are
 //! motions.
 //!
 //! The rows of a body have one list of columns, and so have its columns of rows: what a plan keeps grows with the entries that

@@ -1,4 +1,4 @@
-//! The rotation of a body by a rotation vector, and how its spin depends on that vector (docs/formulation.md 14.1, 14.2).
+//! The rotation of a body by a rotation vector, and how its spin depends on that vector (docs/formulation 14.1, 14.2).
 
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;

@@ -1,4 +1,4 @@
-//! Facets as hosts have them, and the linear sub-facets that their geometry is cut into (docs/formulation.md 12).
+//! Facets as hosts have them, and the linear sub-facets that their geometry is cut into (docs/formulation 12).
 //!
 //! A quadratic facet, the parent, keeps its functions; its sub-facets, triangles and quadrilaterals between its nodes, are
 //! what planes, overlaps, inverse maps and edges are made of. In the parent's coordinates each of them is a triangle or a
@@ -84,7 +84,7 @@ impl Parent {
     }
 
     /// The polynomial degree that a quadrature rule needs where both sides are affine: of the derivatives of pairs with
-    /// such a parent (docs/formulation.md 12).
+    /// such a parent (docs/formulation 12).
     pub fn degree(&self) -> u32 {
         if self.n >= 8 { 7 } else { 5 }
     }

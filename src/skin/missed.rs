@@ -1,5 +1,5 @@
 //! Contact that a step has missed: facets that lie in each other and that no interface has as a pair. Without this a body passes
-//! through another one without a word (docs/formulation.md 19.5).
+//! through another one without a word (docs/formulation 19.5).
 
 use super::near::Near;
 

@@ -1,4 +1,4 @@
-//! General contact: the skin of all bodies in one piece, which may touch each other and themselves (docs/formulation.md 19).
+//! General contact: the skin of all bodies in one piece, which may touch each other and themselves (docs/formulation 19).
 //!
 //! A layer above the interface handle, of which it knows the calls and the search alone. [`Whole`] is what the host hands over,
 //! cut at creases. At a commit `near` finds which facets may touch, `roles` gives each of them a side, `pieces` cuts what

@@ -1,4 +1,4 @@
-//! Which facets of a skin may touch: a search over all of it, and what rules out far sides of walls (docs/formulation.md 19.2).
+//! Which facets of a skin may touch: a search over all of it, and what rules out far sides of walls (docs/formulation 19.2).
 
 use super::table::Table;
 use super::whole::Whole;

@@ -1,5 +1,5 @@
 //! Pieces of the skin that are interfaces: non-mortar facets that hang together, with what they may touch
-//! (docs/formulation.md 19.4).
+//! (docs/formulation 19.4).
 
 use super::near::Near;
 use super::roles::Role;

@@ -1,5 +1,5 @@
 //! Which side of the contact each facet is on: two facets that may touch are on different sides, smooth neighbours on the same one.
-//! What hangs together is coloured with two colours, and then one of the two gets the multipliers (docs/formulation.md 19.3).
+//! What hangs together is coloured with two colours, and then one of the two gets the multipliers (docs/formulation 19.3).
 
 use super::near::Near;
 use super::whole::Whole;

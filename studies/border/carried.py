@@ -1,7 +1,7 @@
 """Ways to carry what points remember to the points of weights that are made anew at each commit, in the study's plane code:
 
 - projection: onto the functions of each facet;  next: of the nearest old point;  both: the projection, with what is left of the nearest
-  old point, as the library has it (docs/formulation.md 16.9).
+  old point, as the library has it (docs/formulation 16.9).
 
 carried.py [FACETS...]: shear in steps, its return and rest. Minutes."""
 

@@ -2,7 +2,7 @@
 
 A law has `residual(x1, x2, lam)`, the vector of f1, f2 and its multiplier rows, `tangent(x1, x2, lam)`, its derivative, both
 as the library orders them, and `components`, its multipliers a node. Forces have the sign of internal ones, lambda is minus the
-traction on the non-mortar body, g > 0 is open (docs/formulation.md 1). Decided at points:
+traction on the non-mortar body, g > 0 is open (docs/formulation 1). Decided at points:
 
     gh_A = nu . g_A / D_A, the dual gap as a length;  sigma = sum_A N_A (lambda_A + r_A gh_A);  t = min(0, sigma)        (1)
     forces  int N_A t, - int N_C t;                                                                                    (2)

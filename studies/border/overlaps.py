@@ -1,5 +1,5 @@
 """Points of the overlaps of two surfaces, with weights and the functions of both sides there: the library's own weights are
-sums over them. Lines in any position (docs/formulation.md 13.1); in space facets in the plane z = 0, triangles or rectangles
+sums over them. Lines in any position (docs/formulation 13.1); in space facets in the plane z = 0, triangles or rectangles
 along the axes, the non-mortar body above."""
 
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-//! Derivatives of a facet's dual weights themselves, from those of all weights of its pairs (docs/formulation.md 10.4):
+//! Derivatives of a facet's dual weights themselves, from those of all weights of its pairs (docs/formulation 10.4):
 //!
 //! Da = (diag(Dm_A) - a Dm) m^-1,   Dn^d_AC = phi (Da n + a Dn)_AC + Dphi (a n)_AC,   Dn^d_AA = D(phi m_A).
 //!

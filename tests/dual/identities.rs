@@ -1,4 +1,4 @@
-//! What holds exactly of dual weights, whatever covers a facet (docs/formulation.md 10.3).
+//! What holds exactly of dual weights, whatever covers a facet (docs/formulation 10.3).
 
 use super::facet::{Patch, Scene};
 use crate::support::max_abs;

@@ -11,7 +11,8 @@ const FOLDERS: [&str; 9] =
 /// What is not in the repository.
 const WITHOUT: [&str; 4] = ["target", "corpus", "artifacts", "build"];
 
-fn documents() -> Vec<PathBuf> {
+/// All documents of the repository.
+pub fn documents() -> Vec<PathBuf> {
     let mut found: Vec<_> = fs::read_dir(root())
         .unwrap()
         .map(|e| e.unwrap().path())

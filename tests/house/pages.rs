@@ -1,6 +1,7 @@
-//! Pages have a job each: none of the guide's and of the scenes' is long, a user meets few keys of an interface, and no key that the
+//! Pages have a job each: none is long, a user meets few keys of an interface, and no key that the
 //! driver reads is without words.
 
+use crate::links::documents;
 use crate::support::files::{below, root};
 use std::collections::BTreeSet;
 use std::fs;
@@ -10,15 +11,10 @@ const MOST_LINES: usize = 400;
 const MOST_KEYS: usize = 12;
 const SCENES: &str = "c_examples/scenes";
 
-/// The pages for hosts, and those of the scenes' format, with their names.
+/// All pages of the repository but the list of what changed, with their names.
 fn pages() -> Vec<(String, String)> {
-    let mut found = below(&root().join(SCENES), &["md"], &[]);
-    let guide = below(&root().join("docs"), &["md"], &[]).into_iter().filter(|p| {
-        let name = p.file_name().unwrap().to_string_lossy();
-        name == "plug_in.md" || name.starts_with("host_")
-    });
-    found.extend(guide);
-    found.iter().map(|p| (p.display().to_string(), fs::read_to_string(p).unwrap())).collect()
+    let found = documents().into_iter().filter(|p| !p.ends_with("CHANGELOG.md"));
+    found.map(|p| (p.display().to_string(), fs::read_to_string(p).unwrap())).collect()
 }
 
 /// Words in code letters in the first column of a table.

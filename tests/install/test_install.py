@@ -189,7 +189,7 @@ def test_documents(tree):
     sources = [squeezed(p.read_text()) for p in examples]
     guide = "".join(p.read_text() for p in [ROOT / "docs/plug_in.md", *(ROOT / "docs").glob("host_*.md")])
     expect(guide.count("```c\n") >= 20 and "```fortran" in guide and "```cpp" in guide, "the guide has its code blocks")
-    for document in sorted((ROOT / "docs").glob("*.md")):
+    for document in sorted((ROOT / "docs").rglob("*.md")):
         text = document.read_text()
         for match in re.finditer(r"```(c|cpp|fortran)\n(.*?)```\n(?:\n```text\n(.*?)```)?", text, flags=re.S):
             language, block, output = match.groups()

@@ -1,4 +1,4 @@
-//! Conserving weights (docs/formulation.md 21): forces work exactly what the gaps change by and have neither resultant nor moment, the
+//! Conserving weights (docs/formulation 21): forces work exactly what the gaps change by and have neither resultant nor moment, the
 //! tangent is the derivative, nothing sinks from step to step, history, what is refused.
 
 use crate::support::differences::Point;

@@ -116,7 +116,7 @@ fn a_prescribed_direction_is_a_suspect_where_the_node_sticks() {
     assert_eq!((d.count(State::Slip), d.suspects.len()), (4, 0));
 }
 
-/// docs/formulation.md 6.2: without slip history a node that sticks has no tangential rows.
+/// docs/formulation 6.2: without slip history a node that sticks has no tangential rows.
 #[test]
 fn new_contact_that_keeps_its_friction_is_a_suspect() {
     let one = grid(1, 1, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);

@@ -1,4 +1,4 @@
-//! Dual multipliers through all stages of an interface (docs/formulation.md 10): golden cases, the tangent against
+//! Dual multipliers through all stages of an interface (docs/formulation 10): golden cases, the tangent against
 //! differences, its pattern, what is refused.
 
 use super::golden::{dense_tangent, expected_tangent, residual_error, set_up_with, tangent_error};

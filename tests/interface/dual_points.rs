@@ -1,4 +1,4 @@
-//! Dual multipliers where facets are integrated by points in place of overlaps (docs/formulation.md 10.9): the tangent
+//! Dual multipliers where facets are integrated by points in place of overlaps (docs/formulation 10.9): the tangent
 //! against differences, what holds exactly, and which facets are refused by name.
 
 use crate::support::differences::Point;

@@ -1,4 +1,4 @@
-//! Heat across an interface (docs/formulation.md 17): what is conserved, what passes exactly, derivatives against differences.
+//! Heat across an interface (docs/formulation 17): what is conserved, what passes exactly, derivatives against differences.
 
 use super::weak;
 use crate::support::lines::{components, contact_of_lines, lines, moved_lines};

@@ -1,5 +1,5 @@
 //! Residual and tangent are functions of (x, lambda, committed history) alone; the history changes on
-//! commit, rolls back exactly and survives export and import (row S5 of the hard tests, docs/formulation.md 9).
+//! commit, rolls back exactly and survives export and import (row S5 of the hard tests, docs/formulation 9).
 
 use crate::support::mesh::*;
 use nalgebra::Rotation3;

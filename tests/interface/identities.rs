@@ -1,4 +1,4 @@
-//! What holds exactly (docs/formulation.md 7): balance of momentum, frame indifference, renumbering, offsets,
+//! What holds exactly (docs/formulation 7): balance of momentum, frame indifference, renumbering, offsets,
 //! units, and the relation of the two forms.
 
 use crate::support::mesh::*;
@@ -220,7 +220,7 @@ fn units_by_powers_of_two_change_no_bit() {
     }
 }
 
-/// R_aug = R_mult + n^T r c (docs/formulation.md 5.2): the forms have the same solutions.
+/// R_aug = R_mult + n^T r c (docs/formulation 5.2): the forms have the same solutions.
 #[test]
 fn forms_differ_by_the_rows() {
     for cells in CELLS {

@@ -47,7 +47,7 @@ fn slip_of_rotation(slip: SlipMeasure, seed: u64) -> (f64, usize) {
     (i.history().slip.iter().map(Vec3::norm).fold(0.0, f64::max) / 0.25, loose)
 }
 
-/// The paper's literal measure drifts (docs/formulation.md 4.2), by the tangential part of the gap in every step.
+/// The paper's literal measure drifts (docs/formulation 4.2), by the tangential part of the gap in every step.
 #[test]
 fn a_stuck_curved_interface_turns_by_2_rad_without_slip() {
     for seed in 1..=3 {

@@ -1,4 +1,4 @@
-//! Laws of one's own in place of Coulomb's (docs/formulation.md 4.8): the tangent against differences, what each of them is where it
+//! Laws of one's own in place of Coulomb's (docs/formulation 4.8): the tangent against differences, what each of them is where it
 //! is Coulomb's, what they remember, what is refused.
 
 use super::weak;

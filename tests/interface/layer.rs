@@ -1,4 +1,4 @@
-//! What lies between the surfaces (docs/formulation.md 20): tangents against differences, what each part of it does, what is remembered.
+//! What lies between the surfaces (docs/formulation 20): tangents against differences, what each part of it does, what is remembered.
 
 use super::weak;
 use crate::support::differences::Point;

@@ -1,4 +1,4 @@
-//! Lines of plane and axisymmetric models through the interface (docs/formulation.md 13).
+//! Lines of plane and axisymmetric models through the interface (docs/formulation 13).
 
 use crate::support::lines::*;
 use crate::support::max_abs;

@@ -1,4 +1,4 @@
-//! Normals of the current configuration (docs/formulation.md 11): golden cases, the tangent against differences, rigid turns
+//! Normals of the current configuration (docs/formulation 11): golden cases, the tangent against differences, rigid turns
 //! within a step, what is refused.
 
 use super::golden::{dense_tangent, expected_tangent, residual_error, set_up_with, tangent_error};

@@ -1,4 +1,4 @@
-//! Offsets of the nodes (docs/formulation.md 15): the tangent against differences, against meshes that are moved, slip, search.
+//! Offsets of the nodes (docs/formulation 15): the tangent against differences, against meshes that are moved, slip, search.
 
 use super::weak;
 use crate::support::differences::Point;

@@ -1,5 +1,5 @@
 //! The patch test of quadratic cells on each other and on linear ones: two boxes whose meshes do not match are pressed, and the
-//! stress is constant (docs/formulation.md 12.2).
+//! stress is constant (docs/formulation 12.2).
 
 use crate::support::mesh::*;
 use crate::support::parents::has_row;

@@ -1,4 +1,4 @@
-//! Friction where points decide (docs/formulation.md 16.7): the tangent against differences, momentum, the law without friction as its
+//! Friction where points decide (docs/formulation 16.7): the tangent against differences, momentum, the law without friction as its
 //! limit, patches that stick and slide, rest, history, what is refused.
 
 use crate::support::differences::Point;

@@ -1,4 +1,4 @@
-//! Friction where points decide, with weights that are made anew at each commit (docs/formulation.md 16.9): what points remember turns with
+//! Friction where points decide, with weights that are made anew at each commit (docs/formulation 16.9): what points remember turns with
 //! the facets, goes on while surfaces slide over facets, takes work and never gives any back, and is refused where it does not fit.
 
 use crate::support::lines::*;

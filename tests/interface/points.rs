@@ -1,4 +1,4 @@
-//! Deciding at points (docs/formulation.md 16): the tangent against differences, momentum, sums over points by brute force, closed
+//! Deciding at points (docs/formulation 16): the tangent against differences, momentum, sums over points by brute force, closed
 //! and open facets, the patch test's equations, history, what is refused.
 
 use crate::support::differences::Point;

@@ -1,4 +1,4 @@
-//! Quadratic facets through the interface (docs/formulation.md 12.5): golden interfaces and dual facets, tangents against
+//! Quadratic facets through the interface (docs/formulation 12.5): golden interfaces and dual facets, tangents against
 //! differences, exact identities, plans, histories.
 
 use super::golden::{dense_tangent, expected_tangent, residual_error, tangent_error};

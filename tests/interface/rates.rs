@@ -1,4 +1,4 @@
-//! Friction that follows the rate of slip (docs/formulation.md 4.8): steady sliding, and a mass on a spring that sticks and slips.
+//! Friction that follows the rate of slip (docs/formulation 4.8): steady sliding, and a mass on a spring that sticks and slips.
 
 use super::layer::{Springs, face, with};
 use stickslip::geometry::Vec3;

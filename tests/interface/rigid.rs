@@ -1,5 +1,5 @@
 //! Rigid bodies with six unknowns, and with three in the plane: against a body that is meshed and 1000 times stiffer, against
-//! statics, and against Hertz (docs/formulation.md 14). The tangent against differences: `tests/capi/t94_rigid.c`.
+//! statics, and against Hertz (docs/formulation 14). The tangent against differences: `tests/capi/t94_rigid.c`.
 
 use crate::support::host::{self, Host};
 use crate::support::mesh::{Cells, Mesh, ball, grid};

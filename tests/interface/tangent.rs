@@ -1,5 +1,5 @@
 //! The tangent against central differences of the library's own residual, every column (row K2 of the
-//! hard tests, docs/formulation.md 9), and its exact properties (K4, K5).
+//! hard tests, docs/formulation 9), and its exact properties (K4, K5).
 
 use crate::support::differences::Point;
 use crate::support::max_abs;

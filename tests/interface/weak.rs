@@ -106,7 +106,7 @@ fn constrained_directions_are_carried_and_differentiated_too() {
     }
 }
 
-/// docs/formulation.md 7.2: forces cancel, and their moments are those of the gaps.
+/// docs/formulation 7.2: forces cancel, and their moments are those of the gaps.
 #[test]
 fn forces_balance_and_moments_are_those_of_the_gaps() {
     for form in [Form::Multiplier, Form::Augmented] {

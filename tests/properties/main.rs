@@ -1,4 +1,4 @@
-//! Laws that hold exactly (docs/formulation.md 7) and the rows W, S, K, I of the hard tests (docs/formulation.md 9) that random
+//! Laws that hold exactly (docs/formulation 7) and the rows W, S, K, I of the hard tests (docs/formulation 9) that random
 //! input can try; and where each is tried. Numbers are sections of that document. P: `pairs`, N: `nodes`, I: `interfaces`, G: `singular`, C: `normals`; in the
 //! last column other files, with chosen or golden cases.
 //!

@@ -156,7 +156,7 @@ proptest! {
         prop_assert!(n <= ROUNDING);
     }
 
-    /// docs/formulation.md 6.3: an uncovered node is in gap whatever its multiplier.
+    /// docs/formulation 6.3: an uncovered node is in gap whatever its multiplier.
     #[test]
     fn uncovered_nodes_are_open(c in cases(), g in unit()) {
         let n = Node { covered: false, ..node(&c, c.sigma, 2.0, g, g) };

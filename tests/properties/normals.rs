@@ -1,4 +1,4 @@
-//! Normals that follow the motion (docs/formulation.md 11): the derivative of the averaged normal of a node amid its facets,
+//! Normals that follow the motion (docs/formulation 11): the derivative of the averaged normal of a node amid its facets,
 //! and of the answers of the laws with respect to it.
 
 use super::{angles, config};

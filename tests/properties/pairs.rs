@@ -111,7 +111,7 @@ fn derivative_identities(p: &Pair) -> TestCaseResult {
     Ok(())
 }
 
-/// The gap of a pair with its own weights lies along the plane's normal (docs/formulation.md 2.4), as far as the inverse maps
+/// The gap of a pair with its own weights lies along the plane's normal (docs/formulation 2.4), as far as the inverse maps
 /// return the same point.
 fn gap_is_normal(p: &Pair) -> TestCaseResult {
     let (w, plane) = (p.weights(&DEGREE_5), &p.frame.plane);

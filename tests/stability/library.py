@@ -168,7 +168,7 @@ def normals_in_question():
 
 
 def fade(c, space="corner"):
-    """phi: facets of which less than a hundredth is covered fade out with dual multipliers (docs/formulation.md 10.5)."""
+    """phi: facets of which less than a hundredth is covered fade out with dual multipliers (docs/formulation 10.5)."""
     s = min(max((c - 1e-4) / (1e-2 - 1e-4), 0.0), 1.0)
     return s**2 * (3 - 2 * s) if space == "corner" and basis_in_question() == "dual" else 1.0
 

@@ -1,5 +1,5 @@
 """Mortar weights of a pair of lines by another road than the library's: intervals and Gauss points in decimal arithmetic of 90
-digits, derivatives by differences (docs/formulation.md 13.2). Inputs are exactly the doubles given, and the weights are exact.
+digits, derivatives by differences (docs/formulation 13.2). Inputs are exactly the doubles given, and the weights are exact.
 """
 
 from decimal import Decimal

@@ -1,6 +1,6 @@
 """Mortar weights of a pair with quadratic facets by another road than the library's: every pair of linear parts is clipped
 and integrated as in oracle.py, with the functions of the whole facets at the points' parent coordinates
-(docs/formulation.md 12.2). Linear facets are their own single part.
+(docs/formulation 12.2). Linear facets are their own single part.
 """
 
 from decimal import Decimal

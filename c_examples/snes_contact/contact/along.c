@@ -1,4 +1,4 @@
-/* What forces and rows of all interfaces change by along a direction in what they depend on (docs/formulation.md, 18). */
+/* What forces and rows of all interfaces change by along a direction in what they depend on (docs/formulation, 18). */
 #include "contact/contact.h"
 
 PetscBool contact_mortar_stays(const ContactPart *part)

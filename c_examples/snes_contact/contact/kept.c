@@ -1,6 +1,6 @@
 /* What the surfaces keep of where they are at the start, and may not be meant; it is told by its node and its size.
  *
- * With `weights: conserving` what overlaps at the start of a step counts as closed (docs/formulation.md 21), and what the surfaces overlap
+ * With `weights: conserving` what overlaps at the start of a step counts as closed (docs/formulation 21), and what the surfaces overlap
  * by at t = 0 as well: it presses nothing, and stays. An overlap of the mesh is a fit, or a mistake. Tied surfaces keep the gap between them, however wide: what is tied across it moves as one, as if a rigid body filled it. */
 #include "contact/contact.h"
 

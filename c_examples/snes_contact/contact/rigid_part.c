@@ -1,5 +1,5 @@
 /* Rigid bodies in a part of an interface: numbers for the equations that their nodes have in the library's tangent, and what that tangent
- * becomes by the bodies' own unknowns (docs/formulation.md 14.4). The forces need nothing here: they are collected where all of them
+ * becomes by the bodies' own unknowns (docs/formulation 14.4). The forces need nothing here: they are collected where all of them
  * are (physics/rigids.c). */
 #include "contact/contact.h"
 

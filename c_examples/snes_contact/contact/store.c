@@ -1,4 +1,4 @@
-/* What contact has stored where points decide. There K keeps a gap (docs/formulation.md 16.2), as a thin elastic layer would; what it takes by
+/* What contact has stored where points decide. There K keeps a gap (docs/formulation 16.2), as a thin elastic layer would; what it takes by
  * that it gives back, which is no gain. With the weights of a step the forces of the normal part have the potential
  *
  *   Psi = 1/2 int t sum_A N_A gh_A da = 1/2 sum_A gh_A int N_A t da = 1/2 sum_A g_A tau_A,      (docs/dynamics.md)

@@ -1,4 +1,4 @@
-/* Rigid bodies: where a motion puts their nodes, and what the forces on these are at the reference point (docs/formulation.md 14, by
+/* Rigid bodies: where a motion puts their nodes, and what the forces on these are at the reference point (docs/formulation 14, by
  * the library). Their nodes are prescribed entries of the local vectors, which follow the body's own six unknowns.
  *
  * These are the displacements of two vertices (mesh/rigid.c). That of the first is the reference point's, [L]. The second has the

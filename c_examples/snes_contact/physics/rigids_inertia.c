@@ -1,4 +1,4 @@
-/* Inertia of rigid bodies with `dynamics` (docs/dynamics.md, docs/formulation.md 14.7): the energy-momentum rule of Simo and Wong (Int. J. Numer.
+/* Inertia of rigid bodies with `dynamics` (docs/dynamics.md, docs/formulation 14.7): the energy-momentum rule of Simo and Wong (Int. J. Numer.
  * Meth. Engng 31, 1991). It is the midpoint rule of the bodies that deform, for finite rotations.
  *
  * With theta for the rotation vector of the step, the turn is a Cayley map of tau = 2 tan(|theta| / 2) theta / |theta|: whatever turns

@@ -4,7 +4,7 @@
  *
  *   K_n dy_n = - (dR/du_{n-1} du_{n-1} + dR/dtheta)
  *
- * with the tangent K_n at the end of the step (docs/formulation.md, 18): one factorisation a step, and a solve a parameter. */
+ * with the tangent K_n at the end of the step (docs/formulation, 18): one factorisation a step, and a solve a parameter. */
 #ifndef SNES_CONTACT_SENSITIVITY_H
 #define SNES_CONTACT_SENSITIVITY_H
 #include "solve/solve.h"

@@ -85,7 +85,7 @@ class RigidBody:
     @property
     def arms(self) -> str:
         """Of which place the arms of forces are, in :meth:`resultant` and :class:`RigidPlan`: "end", that of the unknowns (default), or
-        "middle", the means of those and of the arms at t_n, for dynamics (docs/formulation.md 14.7)."""
+        "middle", the means of those and of the arms at t_n, for dynamics (docs/formulation 14.7)."""
         return _ARMS[self._motion.arms]
 
     @arms.setter

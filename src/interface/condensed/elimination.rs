@@ -1,4 +1,4 @@
-//! The elimination of multipliers by the rows of their own nodes (docs/formulation.md 10.7). With R_u the forces' rows, J_uu their
+//! The elimination of multipliers by the rows of their own nodes (docs/formulation 10.7). With R_u the forces' rows, J_uu their
 //! derivative at fixed multipliers and c_A the multiplier rows, the condensed system is
 //!
 //!   residual L R_u + b,   matrix L J_uu + G,

@@ -1,4 +1,4 @@
-//! The linear functions of the corners of quadratic facets as sums of the facets' own (docs/formulation.md 12.6): with
+//! The linear functions of the corners of quadratic facets as sums of the facets' own (docs/formulation 12.6): with
 //! N^lin_B = N_B + sum_m c_Bm N_m the rows (C R)_B = R_B + sum_m c_Bm R_m of a host have -m_B lambda_B of the dual multipliers, and
 //! nothing of the others.
 

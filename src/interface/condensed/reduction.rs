@@ -1,4 +1,4 @@
-//! The reduced form of a condensed system, for multigrid (docs/formulation.md 10.10). Of a condensed matrix J and residual R it is
+//! The reduced form of a condensed system, for multigrid (docs/formulation 10.10). Of a condensed matrix J and residual R it is
 //!
 //!   matrix E_L J E_R,   residual E_L R,   displacements u = E_R v.
 //!

@@ -1,5 +1,5 @@
 //! The rows of a host's matrix that condensation changes, taken out of it and put back: J becomes L J + G in place
-//! (docs/formulation.md 10.7).
+//! (docs/formulation 10.7).
 
 use super::elimination::{Elimination, Row};
 use crate::error::{Error, Result};

@@ -1,4 +1,4 @@
-//! What a step with conserving weights knows of each node (docs/formulation.md 21): its gap as a function of the places alone, how that
+//! What a step with conserving weights knows of each node (docs/formulation 21): its gap as a function of the places alone, how that
 //! depends on them, and the force that works exactly what it changes by.
 
 use super::active::Active;

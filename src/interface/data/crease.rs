@@ -1,4 +1,4 @@
-//! Nodes on creases of a surface, listed once for each side (docs/formulation.md 6.5): where the facets around a node look in
+//! Nodes on creases of a surface, listed once for each side (docs/formulation 6.5): where the facets around a node look in
 //! too many directions their averaged normal means nothing, at an opposing pair it does not even exist.
 //!
 //! Each copy belongs to one fan of facets that look nearly the same way and has its own normal, gap and multiplier; all

@@ -1,4 +1,4 @@
-//! Nodes that several interfaces of a host share (docs/formulation.md 6.5).
+//! Nodes that several interfaces of a host share (docs/formulation 6.5).
 //!
 //! A node that is non-mortar in two interfaces has multipliers in both: where it sticks or is tied in both, six
 //! conditions meet three displacements. A node that is non-mortar in one and mortar in another is a link of a chain,

@@ -1,4 +1,4 @@
-//! What an interface remembers of t_n: configuration, weights, normals, areas, coverage, slip (docs/formulation.md 6.1).
+//! What an interface remembers of t_n: configuration, weights, normals, areas, coverage, slip (docs/formulation 6.1).
 //! It changes only on commit, rolls back exactly, and travels as flat arrays (`restart.rs`). Without friction there is no
 //! slip to measure: no gaps (but where overlaps of t_n count as closed, or copies of nodes are told apart by them), no slip, and weights only where they are frozen. Tied surfaces keep the gap, that of their
 //! facets too (`facet_gaps.rs`), and no slip.

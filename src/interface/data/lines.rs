@@ -1,4 +1,4 @@
-//! Surfaces of plane and axisymmetric models: their facets are lines (docs/formulation.md 13). Nodes have z = 0.
+//! Surfaces of plane and axisymmetric models: their facets are lines (docs/formulation 13). Nodes have z = 0.
 //!
 //! Search, heights and overlaps are those of quadrilaterals: each part of a line is given a width along z, the same one on
 //! both sides. Weights, areas and derivatives are those of lines (`src/line`), whatever the width is.

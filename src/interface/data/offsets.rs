@@ -1,5 +1,5 @@
 //! Offsets of a surface's nodes: how far the surface that is meant lies behind the one that is meshed, along the normal into the
-//! body `[L]` (docs/formulation.md 15.1). Positive ones open a gap (a clearance); negative ones close it (an interference, half
+//! body `[L]` (docs/formulation 15.1). Positive ones open a gap (a clearance); negative ones close it (an interference, half
 //! the thickness of a shell, the rise of a circle over its chord). They are the host's and belong to no history.
 
 use super::node_data::check_length;

@@ -29,7 +29,7 @@ pub enum Weights {
     Committed,
     /// Frozen, with normals and areas, at the first configuration: small displacements.
     Reference,
-    /// Of now, and gaps are functions of the places alone: contact takes exactly what they change by (docs/formulation.md 21).
+    /// Of now, and gaps are functions of the places alone: contact takes exactly what they change by (docs/formulation 21).
     Conserving = 4,
 }
 
@@ -38,7 +38,7 @@ pub enum Weights {
 pub enum Normals {
     /// That of the last commit: data of a step, as in the paper.
     Committed,
-    /// The current one, linearised (docs/formulation.md 11).
+    /// The current one, linearised (docs/formulation 11).
     Current,
 }
 
@@ -82,7 +82,7 @@ pub enum RowScale {
 pub enum MultiplierBasis {
     /// The shape functions, as in the paper.
     Standard,
-    /// Biorthogonal to the shape functions over what is covered of a facet (docs/formulation.md 10).
+    /// Biorthogonal to the shape functions over what is covered of a facet (docs/formulation 10).
     Dual,
 }
 
@@ -92,7 +92,7 @@ pub enum Decision {
     /// At nodes.
     #[default]
     Nodes,
-    /// At the points of overlaps, with E* of both bodies together [F/L^2] (docs/formulation.md 16).
+    /// At the points of overlaps, with E* of both bodies together [F/L^2] (docs/formulation 16).
     Points(f64),
 }
 
@@ -223,7 +223,7 @@ pub const MODULUS_FACTOR: f64 = 0.1;
 /// [`Options::weak_coverage`] for: every covered node has a multiplier of its own.
 pub const NO_WEAK_COVERAGE: f64 = -1.0;
 /// What dual multipliers take where the host says nothing. A facet that is covered at one end alone supports the node at the
-/// other end by nothing, and its multiplier grows as the covered part goes (docs/formulation.md 10.5).
+/// other end by nothing, and its multiplier grows as the covered part goes (docs/formulation 10.5).
 const WEAK_COVERAGE_OF_DUAL: f64 = 0.2;
 
 /// Default of [`Options::turn_max`]: 20 degrees.

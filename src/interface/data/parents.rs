@@ -1,4 +1,4 @@
-//! Quadratic facets of a surface, as hosts have them (docs/formulation.md 12). Planes, overlaps, search and normals' planes are
+//! Quadratic facets of a surface, as hosts have them (docs/formulation 12). Planes, overlaps, search and normals' planes are
 //! of the linear facets between their nodes, the parts, which are what a surface calls its facets. Gaps, forces and histories are
 //! of the facets of the host, the parents.
 //!

@@ -1,4 +1,4 @@
-//! Friction where points decide: what a step knows of the points of its overlaps, and the answer at them (docs/formulation.md 16.7).
+//! Friction where points decide: what a step knows of the points of its overlaps, and the answer at them (docs/formulation 16.7).
 
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};

@@ -1,4 +1,4 @@
-//! Where points decide: what a step knows of the facets that have pairs, and the closed part of each pair (docs/formulation.md 16).
+//! Where points decide: what a step knows of the facets that have pairs, and the closed part of each pair (docs/formulation 16).
 
 use super::point_friction::PointFriction;
 use crate::geometry::Vec3;

@@ -1,4 +1,4 @@
-//! Offsets that give a faceted surface back its shape (docs/formulation.md 15.5): of each node the mean of the signed distance of
+//! Offsets that give a faceted surface back its shape (docs/formulation 15.5): of each node the mean of the signed distance of
 //! its facets from the shape, weighted with the node's function, along the facets' normals and then the node's, as gaps are
 //! measured. Facets are chords: of a shaft they lie inside it, and the offset
 //! closes a gap; of a bore they lie in the hole, and it opens one.

@@ -283,7 +283,7 @@ impl Surface {
         (0..self.facets.len()).map(|f| self.facet(f, x).longest_edge()).fold(0.0, f64::max)
     }
 
-    /// Per node the sum of the unit normals of its facets' corners, which gives nu (docs/formulation.md 4.1).
+    /// Per node the sum of the unit normals of its facets' corners, which gives nu (docs/formulation 4.1).
     pub(crate) fn sums_of_normals(&self, x: &[Vec3]) -> Result<Vec<Vec3>> {
         let mut sums = Vec::new();
         self.add_normals(x, &mut sums)?;

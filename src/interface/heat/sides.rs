@@ -1,4 +1,4 @@
-//! What passes through every node, and what the nodes of both sides get of it (docs/formulation.md 17.1).
+//! What passes through every node, and what the nodes of both sides get of it (docs/formulation 17.1).
 
 use super::rows::Row;
 use crate::error::{Error, Kind, Result};

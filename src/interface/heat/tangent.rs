@@ -1,4 +1,4 @@
-//! The tangent of the heat that leaves the nodes: by temperatures, by displacements, by multipliers (docs/formulation.md 17.2).
+//! The tangent of the heat that leaves the nodes: by temperatures, by displacements, by multipliers (docs/formulation 17.2).
 
 use super::rows::{Column, Row};
 use super::sides::Place;

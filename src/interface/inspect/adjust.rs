@@ -1,5 +1,5 @@
 //! Gaps and overlaps of the first configuration that are closed before there is any strain: the nodes of the non-mortar surface are
-//! moved along their normals onto the mortar surface, where that is within a tolerance (docs/formulation.md 15.4).
+//! moved along their normals onto the mortar surface, where that is within a tolerance (docs/formulation 15.4).
 //!
 //! A node's distance is that of the mortar facet, or part of a facet, that its normal meets: from all that look at the node the
 //! nearest. Positive: open. Nodes are looked at one by one, so that none is moved for the sake of a neighbour.

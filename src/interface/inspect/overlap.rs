@@ -1,5 +1,5 @@
 //! What weighted gaps do not see: how far the surfaces really overlap at a point, and how far apart they really are where
-//! they press (docs/formulation.md 4.7).
+//! they press (docs/formulation 4.7).
 //!
 //! A weighted gap is a mean over the facets around a node. It may read open where a body dents a facet that is coarser than the
 //! contact, or closed where overlaps count as closed. So every node of either side is looked at (`pairing/nearest.rs`).

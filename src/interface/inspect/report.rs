@@ -189,7 +189,7 @@ pub fn report<const N: usize>(given: Given<N>, work: &mut Work, (x1, x2): (&[Vec
     Ok(Report { nodes, without_multiplier, penetration, kept, finding })
 }
 
-/// The worst of the overlaps e_A of the step (docs/formulation.md 21), as a length.
+/// The worst of the overlaps e_A of the step (docs/formulation 21), as a length.
 fn kept<const N: usize>(given: Given<N>) -> Result<Option<(usize, f64, f64)>> {
     let mut worst = None;
     for a in 0..given.nodes() {

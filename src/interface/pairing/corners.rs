@@ -1,4 +1,4 @@
-//! Copies of a node on a crease (docs/formulation.md 6.5), and what each of them does in a step. Settled by t_n.
+//! Copies of a node on a crease (docs/formulation 6.5), and what each of them does in a step. Settled by t_n.
 //!
 //! Copies share displacements. Where two of them touch different faces, as in a corner, two normals hold the node, and a third condition,
 //! of sticking, would be one of the two again: the matrix is singular. So a copy acts without friction in a step in which another one may

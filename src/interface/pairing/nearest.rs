@@ -1,4 +1,4 @@
-//! Which facet of the other side lies nearest to each node, whatever the filter says (docs/formulation.md 4.7): along the
+//! Which facet of the other side lies nearest to each node, whatever the filter says (docs/formulation 4.7): along the
 //! normal of the non-mortar facet, in front or behind and whichever way it looks. Where that one opposes and lies behind, the node is in the
 //! other body. A far side is not nearest, nor is a plate that lies in front of it.
 

@@ -1,4 +1,4 @@
-//! Weakly covered nodes, and which nodes carry them (docs/formulation.md 6.7).
+//! Weakly covered nodes, and which nodes carry them (docs/formulation 6.7).
 //!
 //! The multiplier of a node of which a sliver is covered is a point load at the sliver's end: the constraint g_A >= 0
 //! holds at a point however small the area, and its multiplier grows without bound as the sliver goes. So such a node A

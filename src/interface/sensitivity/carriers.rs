@@ -1,4 +1,4 @@
-//! How the shares of carried nodes follow the positions of t_n (docs/formulation.md 18.1): w_AB are ratios of facet areas there. With L_AJ
+//! How the shares of carried nodes follow the positions of t_n (docs/formulation 18.1): w_AB are ratios of facet areas there. With L_AJ
 //! the areas that A shares with its neighbours J, each with shares v_JB,
 //!
 //! w_AB = sum_J L_AJ v_JB / sum_J L_AJ,   Dw_AB = sum_J (DL_AJ (v_JB - w_AB) + L_AJ Dv_JB) / sum_J L_AJ

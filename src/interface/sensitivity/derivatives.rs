@@ -1,5 +1,5 @@
 //! All derivatives of a residual by what is no unknown, from what an evaluation has left: as data of plain nodes, of which the parts make
-//! their shares (docs/formulation.md 18).
+//! their shares (docs/formulation 18).
 
 use super::parameters::Slipping;
 use super::{Answer, At, Take, Wanted, carriers, normals, parameters, weights, weights_of};

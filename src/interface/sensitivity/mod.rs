@@ -1,4 +1,4 @@
-//! What a residual depends on besides the unknowns (docs/formulation.md 18): the positions of t_n, through the weights and the normals
+//! What a residual depends on besides the unknowns (docs/formulation 18): the positions of t_n, through the weights and the normals
 //! that slip is measured with and through who carries whom, and parameters. Beside the stages of forces, whose answers it takes; none of
 //! them knows it.
 

@@ -1,4 +1,4 @@
-//! How answers follow the normals of t_n, nu(x_n), where a step keeps them (docs/formulation.md 18.1): rows of the nodes and of those that
+//! How answers follow the normals of t_n, nu(x_n), where a step keeps them (docs/formulation 18.1): rows of the nodes and of those that
 //! carry them, and, with one multiplier, forces lambda_N nu.
 
 use super::{At, Column, Take, put};

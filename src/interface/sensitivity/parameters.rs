@@ -1,4 +1,4 @@
-//! How rows follow parameters (docs/formulation.md 18.2): mu and the limit through the threshold of a node that slips, offsets through gaps.
+//! How rows follow parameters (docs/formulation 18.2): mu and the limit through the threshold of a node that slips, offsets through gaps.
 
 use super::{At, Column, Take};
 use crate::error::Result;

@@ -1,5 +1,5 @@
 //! How slip follows the positions of t_n: through the weights n(x_n) of the gap g[n_n, x_{n+1}] that it is measured from, and, as an
-//! increment, through the gap g[n_n, x_n] that it is counted from (docs/formulation.md 18.1).
+//! increment, through the gap g[n_n, x_n] that it is counted from (docs/formulation 18.1).
 
 use super::{At, Column, Take};
 use crate::geometry::Mat3;

@@ -1,4 +1,4 @@
-//! What nodes do with conserving weights (docs/formulation.md 21). With the mean gap g_A(x) = nu_A . g[n, x]_A / m_A over what is covered,
+//! What nodes do with conserving weights (docs/formulation 21). With the mean gap g_A(x) = nu_A . g[n, x]_A / m_A over what is covered,
 //! m_A, its gradient G_A, the mean places x_m and what moves in the step, u:
 //!
 //! - D_A = m_A(x_m) G_A(x_m) + q z,   q = (m_A(x_m) (g_A(x') - g_A(x_n)) - m_A G_A(x_m) . u) / z . z

@@ -1,4 +1,4 @@
-//! Stage 1b: what the multipliers' basis makes of the weights of a facet's pairs (docs/formulation.md 10.1, 10.2). With the
+//! Stage 1b: what the multipliers' basis makes of the weights of a facet's pairs (docs/formulation 10.1, 10.2). With the
 //! standard basis nothing; the dual one depends on all pairs of a facet together.
 
 use crate::dual::{DualBasis, FacetSums};

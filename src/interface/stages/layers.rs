@@ -1,6 +1,6 @@
 //! Layers of the mortar surface over a non-mortar facet: mortar facets that are paired with it and lie over each other.
 //! Their gaps would be added up, and each of them would be given the facet's force. So a commit settles which of them are
-//! pairs: the nearest ones (docs/formulation.md 6.6).
+//! pairs: the nearest ones (docs/formulation 6.6).
 //!
 //! The mortar facets over one non-mortar facet fall into sheets, joined by common nodes. Bodies side by side are several
 //! sheets, too, so that what counts is the area that two sheets both cover: of polygons in the facet's plane, exact,

@@ -1,4 +1,4 @@
-//! nu of now (docs/formulation.md 11): the averaged normals of the non-mortar surface where it is, in place of those of t_n.
+//! nu of now (docs/formulation 11): the averaged normals of the non-mortar surface where it is, in place of those of t_n.
 
 use crate::error::Result;
 use crate::geometry::Vec3;

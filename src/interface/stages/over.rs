@@ -1,4 +1,4 @@
-//! Of mortar facets that lie over each other under one non-mortar facet, which are the nearest ones (docs/formulation.md 6.6).
+//! Of mortar facets that lie over each other under one non-mortar facet, which are the nearest ones (docs/formulation 6.6).
 
 use crate::adjacency::root;
 use crate::error::Result;

@@ -1,4 +1,4 @@
-//! A law of one's own, and what lies between the surfaces, at the nodes of an interface (docs/formulation.md 4.8, 20): what they are asked, and what becomes of their answers.
+//! A law of one's own, and what lies between the surfaces, at the nodes of an interface (docs/formulation 4.8, 20): what they are asked, and what becomes of their answers.
 //! Asked by the calling thread alone, node after node.
 
 use super::sums::NodeSums;

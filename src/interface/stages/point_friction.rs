@@ -1,4 +1,4 @@
-//! Stages 2 and 3 with friction where points decide (docs/formulation.md 16.7), with weights that are frozen in a step:
+//! Stages 2 and 3 with friction where points decide (docs/formulation 16.7), with weights that are frozen in a step:
 //!
 //! sigma_A = lambda_A + rhat_A (nu_A nu_A . g_A + g_TA) / D_A;   sigma_N(x) = sum_A N_A sigma_NA
 //! sigma_T(x) = P_e (sum_A N_A sigma_TA) + z(x),   t the projection of both on the cone of mu(x) = sum_A N_A mu_A

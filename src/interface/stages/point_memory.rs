@@ -1,4 +1,4 @@
-//! What the points of a step remember as it begins, where weights are made anew at a commit (docs/formulation.md 16.9): the tractions of the
+//! What the points of a step remember as it begins, where weights are made anew at a commit (docs/formulation 16.9): the tractions of the
 //! points of the step before, carried to other points of the same facets,
 //!
 //! t(x) = t_q + sum_A Theta_A (N_A(x) - N_A(x_q)),   q the point next to x, Theta the facet's own field that is nearest to t

@@ -1,4 +1,4 @@
-//! Stages 2 and 3 where points decide (docs/formulation.md 16); what they know of their facets with weights that are frozen (of now:
+//! Stages 2 and 3 where points decide (docs/formulation 16); what they know of their facets with weights that are frozen (of now:
 //! `points_now.rs`):
 //!
 //! sigma_A = lambda_A + rhat_A gh_A, gh_A = nu_A . g_A / D_A with dual weights;   t(x) = min(0, sum_A N_A(x) sigma_A)
@@ -215,7 +215,7 @@ impl Points {
     }
 
     /// What each facet is at the nodes' sigma, with the weights of the closed parts of those that are cut. `active`: with weights of
-    /// now, whose points move, a closed part is a region of its own (docs/formulation.md 16.8).
+    /// now, whose points move, a closed part is a region of its own (docs/formulation 16.8).
     fn close<const N: usize>(&mut self, given: Given<N>, active: Option<&Active>) -> Result<()> {
         let Points { facets, pairs, planes, sigma, states, closed, friction, .. } = self;
         let (x, planes) = match active {

@@ -1,4 +1,4 @@
-//! What points know of their facets with weights of now (docs/formulation.md 16.8), beside `points.rs`. What is covered of a facet and
+//! What points know of their facets with weights of now (docs/formulation 16.8), beside `points.rs`. What is covered of a facet and
 //! where its plane lies are of the positions; the shape that K is made of, the nodes' sizes and rhat are data of the step.
 
 use super::points::of_parent_weights;

@@ -1,4 +1,4 @@
-//! How far the sides have turned against each other about their normal within a step (docs/formulation.md 6.6). Slip is the chord of
+//! How far the sides have turned against each other about their normal within a step (docs/formulation 6.6). Slip is the chord of
 //! the way that a point has gone. After a spin by theta it is theta / 2 off the direction in which the point moves now, and friction with
 //! it: a moment of friction about the normal is cos(theta / 2) of what it must be. So where all slips, a moment below what friction can
 //! give has a second equilibrium, in which the body has spun. A commit refuses a step with more than `turn_max`, whose cosine is that of

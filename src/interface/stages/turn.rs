@@ -1,4 +1,4 @@
-//! How far the surfaces have turned within a step (docs/formulation.md 6.6). nu, and which facets oppose each other, are
+//! How far the surfaces have turned within a step (docs/formulation 6.6). nu, and which facets oppose each other, are
 //! those of t_n: beyond a limit they mean the surfaces of now no longer. After a quarter of a turn nothing opposes
 //! anything, and a step converges without any contact. So a commit refuses a step that has turned them by more.
 //!

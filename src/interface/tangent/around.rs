@@ -1,4 +1,4 @@
-//! What is around a node, for tangents where points decide (docs/formulation.md 16.4): its facets, and the mortar nodes that these reach.
+//! What is around a node, for tangents where points decide (docs/formulation 16.4): its facets, and the mortar nodes that these reach.
 
 use super::union::{Pairs, Walk};
 use crate::error::Result;

@@ -1,4 +1,4 @@
-//! What couples all pairs of a node and is no sum over pairs (docs/formulation.md 5.4): forces of the augmented form use the
+//! What couples all pairs of a node and is no sum over pairs (docs/formulation 5.4): forces of the augmented form use the
 //! projected traction, with its derivative n_AB (dp/dsigma) r Dg_A. Of the multiplier form it is n_AB lambda_N Dnu_A where nodes
 //! have one multiplier and normals follow the motion.
 

@@ -1,4 +1,4 @@
-//! The tangent with conserving weights (docs/formulation.md 21), node by node: what a multiplier's forces and its row depend on are all nodes
+//! The tangent with conserving weights (docs/formulation 21), node by node: what a multiplier's forces and its row depend on are all nodes
 //! that its gap depends on at the end of the step or half way.
 
 use super::conserving_numbers::ConservingNumbers;

@@ -1,5 +1,5 @@
 //! How the gradients m_A Dg_A of the mean gaps change with the places, times lambda_A, and that of their products with what moves
-//! (docs/formulation.md 21). What
+//! (docs/formulation 21). What
 //! weights have are differences of their derivatives, facet by facet with normals held; normals have it in closed form, but for those of
 //! corners, which are differences, too.
 

@@ -1,4 +1,4 @@
-//! Facets of dual multipliers in the tangent (docs/formulation.md 10.4): what its basis makes of the derivatives of its pairs, once they
+//! Facets of dual multipliers in the tangent (docs/formulation 10.4): what its basis makes of the derivatives of its pairs, once they
 //! are summed up (`facet_table.rs`).
 
 use super::derivatives::PairDerivatives;

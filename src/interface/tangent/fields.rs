@@ -1,4 +1,4 @@
-//! Fields whose integrals with N_A are gaps of a facet of the host (docs/formulation.md 12.4, 15.2): positions of the nodes, or their
+//! Fields whose integrals with N_A are gaps of a facet of the host (docs/formulation 12.4, 15.2): positions of the nodes, or their
 //! offsets.
 
 use super::parent_table::ParentTable;

@@ -1,5 +1,5 @@
 //! Rows and columns of the points of an analytic surface's frame, where these have equations: those of a rigid body that is put
-//! together by `rigid` (docs/formulation.md 14.5). With t_A the traction of node A's forces, f_C = - sum_A n_AC t_A:
+//! together by `rigid` (docs/formulation 14.5). With t_A the traction of node A's forces, f_C = - sum_A n_AC t_A:
 //!
 //! - rows of P_C: - n_AC Dt_A, - Dn_AC t_A by the facet's nodes and by the frame; where t_A turns with a normal of now, or is projected,
 //!   that part of Dt_A comes with what couples all pairs of a node (`augmented.rs`);

@@ -1,4 +1,4 @@
-//! The gaps of the nodes as functions of all places, with their derivatives (docs/formulation.md 21): what conserving weights are made of.
+//! The gaps of the nodes as functions of all places, with their derivatives (docs/formulation 21): what conserving weights are made of.
 //! Read from the tables that tangents are made of, facet by facet.
 
 use super::derivatives::PairDerivatives;

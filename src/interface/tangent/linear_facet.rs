@@ -1,5 +1,5 @@
 //! What a linear facet with all of its pairs puts into its table: what its kernels give, and what dual multipliers and offsets of the
-//! nodes make of it (docs/formulation.md 10.4, 15.2). With o_A = sum_B n_AB h_B + sum_C n_AC h_C of the offsets h, dual multipliers
+//! nodes make of it (docs/formulation 10.4, 15.2). With o_A = sum_B n_AB h_B + sum_C n_AC h_C of the offsets h, dual multipliers
 //! have phi m_A eta_A, eta = m^-1 o with the integrated weights, in its place: D(phi m_A) eta_A + phi m_A (m^-1 [Do - Dm eta])_A.
 
 use super::derivatives::PairDerivatives;

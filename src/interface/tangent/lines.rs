@@ -1,4 +1,4 @@
-//! What a line of the host adds to the tangent with all of its pairs (docs/formulation.md 13.3). Everything else is as of other
+//! What a line of the host adds to the tangent with all of its pairs (docs/formulation 13.3). Everything else is as of other
 //! facets of the host (`parents.rs`).
 
 use super::fields::Fields;

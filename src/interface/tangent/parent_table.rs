@@ -1,5 +1,5 @@
 //! What a facet of the host adds up over its parts before its blocks leave, where either side has quadratic facets: derivatives
-//! over its own nodes and those of its mortar facets (docs/formulation.md 12.5).
+//! over its own nodes and those of its mortar facets (docs/formulation 12.5).
 
 use super::read::{NodeBlock, ReadTable, Through, matrix};
 use super::union::UnionPair;
@@ -297,7 +297,7 @@ impl ParentTable {
     }
 
     /// What the offsets add counts along these normals. `dual`: the facet as [`ParentTable::make_dual`] has it, with eta_A of the
-    /// offsets (docs/formulation.md 15.2).
+    /// offsets (docs/formulation 15.2).
     pub fn put_offsets(
         &mut self,
         along: ([Vec3; MAX_PARENT_NODES], bool),
@@ -352,7 +352,7 @@ impl ParentTable {
         }
     }
 
-    /// Makes of sums with the field q and lowered nodes those of dual gaps and forces (docs/formulation.md 10.4, of vectors).
+    /// Makes of sums with the field q and lowered nodes those of dual gaps and forces (docs/formulation 10.4, of vectors).
     pub fn make_dual(&mut self, d: &DualParent) {
         let (columns, m, basis, c) = (self.columns(), self.multipliers, d.basis, corner_shares(d.parent));
         let (phi, slope, inverse) = (basis.coverage.fade, basis.coverage.slope, basis.coefficients());

@@ -1,4 +1,4 @@
-//! The tangent of a facet of the host with all of its pairs, where either side has quadratic facets (docs/formulation.md 12.5).
+//! The tangent of a facet of the host with all of its pairs, where either side has quadratic facets (docs/formulation 12.5).
 //! Its parts are linearised one by one; what they add is summed up over the facet's nodes and then leaves node by node.
 
 use super::derivatives::PairDerivatives;

@@ -1,4 +1,4 @@
-//! The tangent with friction where points decide (docs/formulation.md 16.7), as without it (`points.rs`): rows of a node are sums over the
+//! The tangent with friction where points decide (docs/formulation 16.7), as without it (`points.rs`): rows of a node are sums over the
 //! nodes A of its facets, of d R / d sigma_A times what sigma_A depends on. At a point dt = H (nu_e N_A dsigma_NA + P_e N_A dsigma_TA), H the
 //! derivative of the projection; dsigma_A = dlambda_A + (rhat_A / D_A) dg_A, taken apart by nu_A and T_A.
 

@@ -1,4 +1,4 @@
-//! What weights of now add to the tangent where points decide (docs/formulation.md 16.8), facet by facet: the derivatives of a facet's
+//! What weights of now add to the tangent where points decide (docs/formulation 16.8), facet by facet: the derivatives of a facet's
 //! forces and rows at fixed sigma_A and lambda_A, which are blocks of the facet's nodes, and those of sigma_A of its nodes at fixed
 //! lambda_A, which the sums over nodes (`points.rs`) take in place of weights that are held.
 
@@ -36,7 +36,7 @@ struct Column {
     areas: OfCorners,
     /// Dgamma_A - sum_B Dm_AB h_B.
     gaps: OfCorners,
-    /// Do_A - sum_B Dm_AB eta_B of the nodes' offsets (docs/formulation.md 15.2).
+    /// Do_A - sum_B Dm_AB eta_B of the nodes' offsets (docs/formulation 15.2).
     offsets: OfCorners,
     /// D int sigma N_B over what is closed, and D sum_B m_AB lambda_B, at fixed values of nodes.
     forces: OfCorners,

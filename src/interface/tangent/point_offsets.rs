@@ -1,4 +1,4 @@
-//! What offsets of the nodes are to the gaps of a facet where points decide, with weights of now (docs/formulation.md 15.2, 16.8).
+//! What offsets of the nodes are to the gaps of a facet where points decide, with weights of now (docs/formulation 15.2, 16.8).
 
 use super::dual_facet::add_offsets;
 use crate::dual::DualBasis;
@@ -7,7 +7,7 @@ use crate::interface::data::points::{PointFacet, Points};
 use crate::interface::pairing::given::Given;
 use crate::shape::MAX_CORNERS;
 
-/// Offsets of a facet's nodes (docs/formulation.md 15.2).
+/// Offsets of a facet's nodes (docs/formulation 15.2).
 pub struct RaisedFacet {
     /// eta_A.
     pub eta: [f64; MAX_CORNERS],

@@ -1,4 +1,4 @@
-//! The rows of one node after the other where points decide, with friction and without it (docs/formulation.md 16.4, 16.7): from each facet
+//! The rows of one node after the other where points decide, with friction and without it (docs/formulation 16.4, 16.7): from each facet
 //! around it what the node has of the A of that facet, the sum of it times what sigma_A depends on (`row_sums.rs`), and where that goes. What
 //! a node has of one A, [`Found`], is what `points.rs` and `point_friction.rs` say.
 

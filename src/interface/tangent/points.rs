@@ -1,4 +1,4 @@
-//! The tangent where points decide (docs/formulation.md 16.4). Tractions at points depend on sigma_A of
+//! The tangent where points decide (docs/formulation 16.4). Tractions at points depend on sigma_A of
 //! a facet's nodes, and sigma_A = lambda_A + rhat_A nu_A . g_A / D_A on the nodes that `slopes.rs` has. So the rows of a node are sums over
 //! the nodes A of its facets, of d R / d sigma_A times what sigma_A depends on (`row_sums.rs`). Where sigma = 0 the tractions vanish: the
 //! border's motion adds nothing. What nodes whose facets are all open act on is left out.

@@ -1,4 +1,4 @@
-//! The rows of one node where points decide (docs/formulation.md 16.4): d R / dx = sum_A (d R / d sigma_A) (d sigma_A / dx), over the nodes
+//! The rows of one node where points decide (docs/formulation 16.4): d R / dx = sum_A (d R / d sigma_A) (d sigma_A / dx), over the nodes
 //! A of the facets that reach it. The sum is in place before any of it leaves: an entry of the tangent is written once,
 //! however many A it has.
 

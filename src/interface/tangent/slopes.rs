@@ -1,4 +1,4 @@
-//! What sigma_A of each node depends on beside lambda_A (docs/formulation.md 16.4): rhat_A nu_A . Dg_A / D_A; with friction rhat_A Dg_A / D_A
+//! What sigma_A of each node depends on beside lambda_A (docs/formulation 16.4): rhat_A nu_A . Dg_A / D_A; with friction rhat_A Dg_A / D_A
 //! in each direction. With weights that are held dual
 //! ones leave no node of its own side but A: sum_B n^d_AB x_B = D_A x_A (10.1), for off the diagonal there is nothing but rounding. With
 //! weights that are differentiated there are all nodes of the facets around A.

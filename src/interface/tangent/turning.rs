@@ -1,4 +1,4 @@
-//! What current normals add to the tangent (docs/formulation.md 11.2). nu_A depends on the corners of all facets around A, also
+//! What current normals add to the tangent (docs/formulation 11.2). nu_A depends on the corners of all facets around A, also
 //! of those without pairs. With Dnu_A = (dnu/ds)_A sum Dm over these corners:
 //!
 //! - rows of A: (dc/dnu) Dnu_A;

@@ -1,4 +1,4 @@
-//! Derivatives of all weights of a facet of the host with its active pairs (docs/formulation.md 17.2). Forces ask for them
+//! Derivatives of all weights of a facet of the host with its active pairs (docs/formulation 17.2). Forces ask for them
 //! contracted with tractions; heat and derivatives by positions of t_n contract them with other things, and take them as they are: the forces of tractions that are
 //! 1 at one multiplier, as the tangent has them.
 

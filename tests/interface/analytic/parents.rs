@@ -456,7 +456,7 @@ fn shapes_of_the_other_model_are_refused() {
     assert!(error.message.contains("nodes of plane models have z = 0"), "{error}");
 }
 
-/// Offsets of the nodes, different ones (docs/formulation.md 15).
+/// Offsets of the nodes, different ones (docs/formulation 15).
 #[test]
 fn offsets_are_differentiated() {
     let give = |n: usize| [Some((0..n).map(|a| 0.004 * (a as f64 - 1.5)).collect()), None];

@@ -103,7 +103,7 @@ fn tangent_equals_differences_in_every_column() {
     assert!(seen.iter().all(|&n| n > 0), "states {seen:?}");
 }
 
-/// Offsets of the nodes, different ones (docs/formulation.md 15).
+/// Offsets of the nodes, different ones (docs/formulation 15).
 #[test]
 fn offsets_are_differentiated() {
     for (basis, form) in

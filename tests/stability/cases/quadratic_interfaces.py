@@ -20,7 +20,7 @@ BALANCE = 1e-13
 # Rotated positions are rounded; the largest force decides.
 TURNED = 1e-10
 # Central differences with a step of 1e-7 of a facet: the second power of the step, and rounding over the step. The rest is
-# the rule's, whose error the derivative does not see (docs/formulation.md 12.3), as measured: of the offset's square, with
+# the rule's, whose error the derivative does not see (docs/formulation 12.3), as measured: of the offset's square, with
 # standard multipliers up to 1.5e-4 of it, with dual ones up to 1.65e-4.
 DIFFERENCES, STEP = 1e-7, 1e-7
 PER_OFFSET = 1.7e-4

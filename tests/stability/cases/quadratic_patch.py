@@ -1,7 +1,7 @@
 """Patch tests of contact between quadratic cells: slivers, kinds mixed, mid nodes off the middle of their edges.
 
 With mid nodes in the middle the answer is exact. Elsewhere the parts' mapping and the facet's differ within the facet, and
-the multipliers are off by what that amounts to (docs/formulation.md 12.2)."""
+the multipliers are off by what that amounts to (docs/formulation 12.2)."""
 
 import sys
 from pathlib import Path
