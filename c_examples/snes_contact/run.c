@@ -1,6 +1,7 @@
 /* Pseudo-time: Newton's method, cut-back, commit, report. */
 #include "model.h"
 #include "physics/dynamics.h"
+#include "physics/fluid.h"
 #include "solve/redundant.h"
 #include "solve/sensitivity.h"
 
@@ -75,20 +76,48 @@ static PetscErrorCode solve_determined(Model *model, Run *run, PetscBool *done)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The step has converged: again with the normals that it has reached, until they stay. */
+/* Has the front of a fluid moved, now that the step has converged? */
+static PetscErrorCode let_fluids_on(Model *model, PetscBool first, PetscBool *moved)
+{
+  Physics *physics = &model->physics;
+  Vec      forces;
+  PetscFunctionBegin;
+  *moved = PETSC_FALSE;
+  if (!fluids_any(physics)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecDuplicate(physics->u_local, &forces));
+  PetscCall(contact_on_vertices(&model->contact, forces));
+  PetscCall(fluid_advance(physics, forces, first, moved));
+  PetscCall(VecDestroy(&forces));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The step has converged: again from there. */
+static PetscErrorCode solve_again(Model *model, Run *run, PetscBool *done)
+{
+  Newton *newton = &model->solve.newton;
+  PetscFunctionBegin;
+  newton->goes_on = PETSC_TRUE;
+  PetscCall(solve_determined(model, run, done));
+  newton->goes_on = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The step has converged: again with the normals that it has reached, and where fluids have come to, until both stay. */
 static PetscErrorCode solve_on(Model *model, Run *run, PetscBool *done)
 {
   Newton        *newton     = &model->solve.newton;
   const PetscInt iterations = newton->iterations;
-  PetscBool      lags       = PETSC_FALSE;
+  PetscBool      lags = PETSC_FALSE, first = PETSC_TRUE, moved = *done;
   PetscFunctionBegin;
-  if (*done) PetscCall(lag_shows(&model->contact, &lags));
-  for (int k = 0; lags && *done; k++) {
-    PetscCall(lag_take_normals(&model->contact, (PetscBool)(k < CORRECTIONS), &lags));
-    if (!lags) break;
-    newton->goes_on = PETSC_TRUE;
-    PetscCall(solve_determined(model, run, done));
-    newton->goes_on = PETSC_FALSE;
+  while (*done && moved) {
+    PetscCall(lag_shows(&model->contact, &lags));
+    for (int k = 0; lags && *done; k++) {
+      PetscCall(lag_take_normals(&model->contact, (PetscBool)(k < CORRECTIONS), &lags));
+      if (lags) PetscCall(solve_again(model, run, done));
+    }
+    if (*done) PetscCall(let_fluids_on(model, first, &moved));
+    first = PETSC_FALSE;
+    if (*done && moved) PetscCall(solve_again(model, run, done));
   }
   if (*done) newton->iterations = iterations; /* what the length of the next step goes by */
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -143,6 +172,7 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
   }
   PetscCall(supports_values(&model->physics, t));
   PetscCall(heat_begin(&model->heat, t));
+  PetscCall(fluid_begin(&model->physics));
   if (model->physics.dynamics) PetscCall(dynamics_begin(&model->physics));
   PetscCall(offsets_values(&model->contact, t, &refused));
   run->offsets = (PetscBool)(refused != 0);
@@ -195,6 +225,7 @@ static PetscErrorCode accept(Model *model, Run *run)
   model->solve.iterations        = 0;
   parts_accept(&model->physics);
   PetscCall(heat_accept(&model->heat));
+  PetscCall(fluid_accept(&model->physics, model->solve.quiet));
   PetscCall(sensitivity_accept(&model->solve));
   equilibrium_accept(&model->contact);
   PetscCall(slide_accept(&model->contact));

@@ -18,6 +18,7 @@ from dynamics_finite import finite  # noqa: E402
 from dynamics_mass import mass  # noqa: E402
 from effect_checks import effects  # noqa: E402
 from exact import exact, exact_friction, exact_gears, exact_rolling  # noqa: E402
+from fluid import fluid  # noqa: E402
 from friction_checks import friction  # noqa: E402
 from general import general  # noqa: E402
 from general_scenes import general_scenes  # noqa: E402
@@ -77,6 +78,7 @@ GROUPS = {
     "exact_friction": exact_friction,
     "exact_gears": exact_gears,
     "exact_rolling": exact_rolling,
+    "fluid": fluid,
     "friction": friction,
     "general": general,
     "general_scenes": general_scenes,  # some minutes; not among the tests

@@ -62,6 +62,8 @@ PetscErrorCode contact_store(const Contact *contact, PetscReal *store);
 PetscErrorCode contact_agree(Contact *contact, const Interface *interface, int32_t refused, PetscInt *status);
 PetscErrorCode contact_largest(const Mesh *mesh, PetscReal *value, size_t bytes, void *what);
 PetscErrorCode contact_gather(Contact *contact, Interface *interface, Vec local);
+/* on every vertex here, of all ranks and interfaces, at the place of the last evaluation */
+PetscErrorCode contact_on_vertices(const Contact *contact, Vec local);
 /* contact.c */
 PetscErrorCode contact_start(Contact *contact, Vec x, PetscInt *status);
 PetscErrorCode contact_forces(Contact *contact, Vec f_local, PetscInt *status); /* adds, to the parts' squares, too */

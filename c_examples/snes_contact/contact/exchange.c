@@ -60,6 +60,16 @@ PetscErrorCode contact_fetch(PetscSF sf, Vec local, PetscScalar *to)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode contact_on_vertices(const Contact *contact, Vec local)
+{
+  PetscFunctionBegin;
+  PetscCall(VecZeroEntries(local));
+  for (PetscInt i = 0; i < contact->n_interfaces; i++)
+    PetscCall(contact_scatter(&contact->interfaces[i].part, contact->interfaces[i].part.forces, local, MPIU_SUM));
+  PetscCall(unknowns_share(contact->physics, local));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode contact_gather(Contact *contact, Interface *interface, Vec local)
 {
   ContactPart *part = &interface->part;

@@ -1,6 +1,7 @@
 /* Results: DIR/summary.json, the progress line, and per step the CSV files of the interfaces and the VTU file. All values
  * of a step belong to the state just before it is committed. */
 #include "output/output.h"
+#include "physics/fluid.h"
 #include <cjson/cJSON.h>
 #include <stdio.h>
 #include <string.h>
@@ -299,6 +300,7 @@ PetscErrorCode summary_step(Output *output, Summary *summary, PetscInt step, Pet
   PetscCall(held_check_springs(solve));
   cJSON_AddNumberToObject(json, "friction_work", friction_work);
   PetscCall(energy_report(output, friction_work, json));
+  fluid_report(physics, json);
   if (last) PetscCall(redundant_report(output, summary->root));
   if (last) PetscCall(skin_report(output, summary->root));
   PetscCall(VecDuplicate(physics->u_local, &summary->state));

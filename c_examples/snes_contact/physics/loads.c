@@ -1,6 +1,6 @@
 /* Loads: a traction vector or a pressure on surfaces, or what accelerates bodies, as nodal forces times a curve. Tractions, and
  * pressures that follow nothing, are dead, per reference area; a follower pressure acts on the surface as it is now. */
-#include "physics/physics.h"
+#include "physics/fluid.h"
 
 PetscErrorCode loads_label(Physics *physics)
 {
@@ -11,6 +11,7 @@ PetscErrorCode loads_label(Physics *physics)
     if (!physics->loads[l].n_surfaces) PetscCall(plex_label_faces(physics->mesh, label, NULL));
     for (PetscInt k = 0; k < physics->loads[l].n_surfaces; k++)
       PetscCall(plex_label_faces(physics->mesh, label, physics->loads[l].surfaces[k]));
+    PetscCall(fluid_label(physics, &physics->loads[l]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -72,6 +73,7 @@ PetscErrorCode loads_assemble(Physics *physics)
     PetscCall(plex_labelled(physics->mesh, "load", load->name, &load->n_faces, &load->faces));
     PetscCall(VecDuplicate(physics->u_local, &load->forces));
     PetscCall(VecZeroEntries(load->forces));
+    PetscCall(fluid_create(physics, load));
     if (load->follows) continue;
     PetscCall(VecGetArray(load->forces, &forces));
     if (load->remote) {
@@ -89,7 +91,39 @@ PetscErrorCode loads_assemble(Physics *physics)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Of the faces under follower pressures, as they are at u_local: forces into `array`, or derivatives out of the matrix. */
+/* Of a face under a pressure that follows it, as it is at u_local: forces into `array`, or derivatives out of the matrix. */
+static PetscErrorCode press(Physics *physics, Face *face, PetscReal pressure, const PetscScalar *u, PetscScalar *array, Mat matrix)
+{
+  PetscReal f[3 * FACE_NODES], K[9 * FACE_NODES * FACE_NODES];
+  PetscInt  equations[3 * FACE_NODES];
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < 3 * face->n; j++) {
+    face->X[j] += PetscRealPart(u[face->dofs[j / 3] + j % 3]);
+    equations[j] = physics->unknowns.equations[face->dofs[j / 3] + j % 3];
+  }
+  face_pressure(face->kind, &physics->mesh->space, face->X, -face->sign * pressure, f, matrix ? K : NULL);
+  if (array) add(face->n, face->dofs, f, -1, array);
+  if (matrix) PetscCall(MatSetValues(matrix, 3 * face->n, equations, 3 * face->n, equations, K, ADD_VALUES));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The faces between surfaces that a fluid presses. */
+static PetscErrorCode press_between(Physics *physics, const Load *load, PetscReal pressure, const PetscScalar *u, PetscScalar *array, Mat matrix)
+{
+  const PetscScalar *flags;
+  PetscFunctionBegin;
+  if (!load->fluid) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecGetArrayRead(load->fluid->reached, &flags));
+  for (PetscInt k = 0; k < load->fluid->n_faces; k++) {
+    Face face;
+    PetscCall(face_look_at(physics, load->fluid->faces[k], &face));
+    if (fluid_presses(load, k, &face, flags)) PetscCall(press(physics, &face, pressure, u, array, matrix));
+  }
+  PetscCall(VecRestoreArrayRead(load->fluid->reached, &flags));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* All pressures that follow their surfaces. */
 static PetscErrorCode follow(Physics *physics, PetscScalar *array, Mat matrix)
 {
   const PetscScalar *u;
@@ -99,18 +133,11 @@ static PetscErrorCode follow(Physics *physics, PetscScalar *array, Mat matrix)
     const Load     *load     = &physics->loads[l];
     const PetscReal pressure = load->pressure * curve_value(&load->curve, physics->t);
     for (PetscInt k = 0; k < load->n_faces && load->follows; k++) {
-      PetscReal f[3 * FACE_NODES], K[9 * FACE_NODES * FACE_NODES];
-      PetscInt  equations[3 * FACE_NODES];
-      Face      face;
+      Face face;
       PetscCall(face_look_at(physics, load->faces[k], &face));
-      for (PetscInt j = 0; j < 3 * face.n; j++) {
-        face.X[j] += PetscRealPart(u[face.dofs[j / 3] + j % 3]);
-        equations[j] = physics->unknowns.equations[face.dofs[j / 3] + j % 3];
-      }
-      face_pressure(face.kind, &physics->mesh->space, face.X, -face.sign * pressure, f, matrix ? K : NULL);
-      if (array) add(face.n, face.dofs, f, -1, array);
-      if (matrix) PetscCall(MatSetValues(matrix, 3 * face.n, equations, 3 * face.n, equations, K, ADD_VALUES));
+      PetscCall(press(physics, &face, pressure, u, array, matrix));
     }
+    PetscCall(press_between(physics, load, pressure, u, array, matrix));
   }
   PetscCall(VecRestoreArrayRead(physics->u_local, &u));
   PetscFunctionReturn(PETSC_SUCCESS);

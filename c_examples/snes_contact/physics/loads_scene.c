@@ -1,5 +1,5 @@
 /* Loads as the scene describes them: on surfaces, or on bodies. */
-#include "physics/physics.h"
+#include "physics/fluid.h"
 #include <string.h>
 
 static void read_surface_load(Scene *scene, const Mesh *mesh, Load *load)
@@ -186,6 +186,7 @@ PetscErrorCode loads_read(Scene *scene, Physics *physics)
   strings_destroy(physics->n_loads, &names);
   for (PetscInt l = 0; l < physics->n_loads; l++) {
     if (!physics->loads[l].bodies && physics->loads[l].vertex < 0) PetscCall(find_surfaces(scene, physics, &physics->loads[l]));
+    PetscCall(fluid_read(scene, physics, &physics->loads[l]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,5 +1,6 @@
 /* The end of what physics.h declares. */
 #include "physics/dynamics.h"
+#include "physics/fluid.h"
 
 static PetscErrorCode destroy_unknowns(Unknowns *unknowns)
 {
@@ -32,6 +33,7 @@ PetscErrorCode physics_destroy(Physics *physics)
     PetscCall(PetscFree(physics->loads[l].curve.points));
     PetscCall(PetscFree(physics->loads[l].surfaces));
     PetscCall(PetscFree(physics->loads[l].bodies));
+    PetscCall(fluid_destroy(&physics->loads[l]));
     PetscCall(PetscFree(physics->loads[l].faces));
     PetscCall(VecDestroy(&physics->loads[l].forces));
   }

@@ -36,9 +36,13 @@ typedef struct {
   PetscReal reaction[3], moment[3];
 } Support;
 
+/* fluid.h */
+typedef struct Fluid Fluid;
+
 typedef struct {
   char            name[NAME_LENGTH];
   PetscReal       traction[3], pressure;
+  Fluid          *fluid;   /* the pressure gets between the surfaces of interfaces; NULL: it does not */
   PetscBool       follows; /* the pressure acts on the surface as it is now */
   PetscReal       turned;  /* by how much a surface under a pressure that does not follow it has turned (loads_turned.c) [rad] */
   Acceleration    acceleration;
@@ -312,6 +316,7 @@ PetscErrorCode unknowns_gather_create(Physics *physics, PetscInt n, const PetscI
 PetscErrorCode unknowns_to_local(Physics *physics, Vec x);
 /* into f_sum: what all ranks hold, complete at owned vertices */
 PetscErrorCode unknowns_sum(Physics *physics, Vec local);
+PetscErrorCode unknowns_share(Physics *physics, Vec local); /* the sum, in place, for all ranks that have the vertex */
 
 /* on every rank: of a vertex by its number */
 PetscErrorCode unknowns_displacement(const Physics *physics, PetscInt number, const PetscScalar *local, PetscReal u[3]);

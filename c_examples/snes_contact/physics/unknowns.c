@@ -244,6 +244,24 @@ PetscErrorCode unknowns_sum(Physics *physics, Vec local)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode unknowns_share(Physics *physics, Vec local)
+{
+  const PetscSF      ghosts = physics->unknowns.ghosts;
+  const PetscScalar *sum;
+  PetscScalar       *mine;
+  PetscFunctionBegin;
+  PetscCall(unknowns_sum(physics, local));
+  PetscCall(VecCopy(physics->f_sum, local));
+  if (!ghosts) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecGetArrayRead(physics->f_sum, &sum));
+  PetscCall(VecGetArray(local, &mine));
+  PetscCall(PetscSFBcastBegin(ghosts, MPIU_SCALAR, sum, mine, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(ghosts, MPIU_SCALAR, sum, mine, MPI_REPLACE));
+  PetscCall(VecRestoreArray(local, &mine));
+  PetscCall(VecRestoreArrayRead(physics->f_sum, &sum));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode unknowns_displacement(const Physics *physics, PetscInt number, const PetscScalar *local, PetscReal u[3])
 {
   const Unknowns *unknowns = &physics->unknowns;

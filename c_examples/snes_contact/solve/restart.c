@@ -1,6 +1,7 @@
 /* What a restart file keeps of the solver: the converged states that the next step starts from, how long it is to be, and what the run has
  * found so far. */
 #include "physics/dynamics.h"
+#include "physics/fluid.h"
 #include "solve/solve.h"
 #include <cjson/cJSON.h>
 #include <string.h>
@@ -61,6 +62,14 @@ static PetscErrorCode archive_past(Solve *solve, Past *past, Archive *archive)
     timed_vectors(solve->physics, &place, &let_go);
     PetscCall(contact_archive_vector(solve->contact, "timed.place", place, archive));
     PetscCall(contact_archive_vector(solve->contact, "timed.let_go", let_go, archive));
+  }
+  for (PetscInt l = 0; l < solve->physics->n_loads; l++) {
+    const Load *load = &solve->physics->loads[l];
+    char        name[2 * NAME_LENGTH];
+    PetscCall(PetscSNPrintf(name, sizeof(name), "fluid.%s", load->name));
+    if (load->fluid) PetscCall(contact_archive_vector(solve->contact, name, load->fluid->start, archive));
+    PetscCall(PetscStrlcat(name, ".leaks", sizeof(name)));
+    if (load->fluid) PetscCall(archive_reals(archive, name, 1, &load->fluid->leaks));
   }
   PetscCall(contact_archive_unknowns(solve->contact, "last", past->last, archive));
   if (past->have_before) PetscCall(contact_archive_unknowns(solve->contact, "before", past->before, archive));

@@ -1,0 +1,162 @@
+"""A pressure that gets between surfaces (`into` of a load): a thin layer under a die that slants, whose pressure grows along it as p = PEAK x, so
+that a fluid of pressure P comes to x = P / PEAK and leaks at PEAK, and not before; a lip that is pressed on a plate."""
+
+import math
+
+import numpy as np
+from jacobian import whole_matrix
+from scene import write
+
+YOUNG, HEIGHT, SLOPE = 100.0, 0.05, 0.001
+PEAK = YOUNG * SLOPE / HEIGHT
+# The layer carries each place by itself but for its shear, over about its height, which is two facets; the front is at an end of a facet.
+FACETS_OFF = 2.0
+# Newton's tolerance of 1e-11 of the largest force.
+BALANCE = 1e-9
+# Ranks add in another order; the numbers of unknowns differ, too.
+RANKS = 1e-9
+CELLS = {"layer": 40, "die": 30}
+CENTRE = 3.0  # of the ring that the strip becomes
+# So many steps up to a tenth above the peak, the first of which presses the die down.
+STEPS, LAST = 12, 1.1
+CURVE = [0, 0, 1, 0, STEPS, 1]
+
+
+def box(model, name, low, high, along):
+    """A strip from 0 to 1, in an axisymmetric model from CENTRE on, in space a tenth wide."""
+    start = CENTRE if model == "axisymmetric" else 0
+    wide = [0.1] if model == "solid" else []
+    shape = {"lower": [start, low] + [0] * len(wide), "upper": [start + 1, high] + wide, "cells": [along, 2] + [1] * len(wide)}
+    return {"type": "box", "young": YOUNG, "poisson": 0} | shape
+
+
+def wedge(model="plane_strain", cell="", roles=("layer", "die"), contact=None, curve=CURVE, **more):
+    axes = ["x", "y", "z"] if model == "solid" else ["x", "y"]
+    d = len(axes)
+    gradient = [0.0] * d * d
+    gradient[d] = -SLOPE
+    faces = {"layer": "layer.ymax", "die": "die.ymin"}
+    scene = {
+        "schema": 1,
+        "model": model,
+        "bodies": ["layer", "die"],
+        "layer": box(model, "layer", 0, HEIGHT, CELLS["layer"]),
+        "die": box(model, "die", HEIGHT, 3 * HEIGHT, CELLS["die"]),
+        "supports": ["base", "press"],
+        "base": {"surface": "layer.ymin", "components": axes},
+        "press": {"body": "die", "components": axes, "gradient": gradient, "curve": [0, 0, 1, 1]},
+        "loads": ["oil"],
+        "oil": {"surface": ["layer.xmin", "die.xmin"], "pressure": LAST * PEAK, "into": "seal", "outlet": ["layer.xmax", "die.xmax"], "curve": curve},
+        "interfaces": ["seal"],
+        "seal": {"nonmortar": faces[roles[0]], "mortar": faces[roles[1]]} | (contact or {}),
+        "steps": {"end": STEPS, "count": STEPS},
+        "output": {"vtu": "none", "csv": "all"},
+    }
+    if model == "axisymmetric":
+        scene["press"]["origin"] = [CENTRE, 0]
+    for name in CELLS if cell else ():
+        scene[name]["cell"] = cell
+    return scene | more
+
+
+VARIANTS = {
+    "plane": {},
+    "triangles": {"cell": "tri"},
+    "quad8": {"cell": "quad8"},
+    "tri6": {"cell": "tri6"},
+    "roles exchanged": {"roles": ("die", "layer")},
+    "standard": {"contact": {"basis": "standard"}},
+    "condensed": {"unknowns": "displacements"},
+    "iterative": {"solver": "iterative"},
+    "axisymmetric": {"model": "axisymmetric"},
+    "hexahedra": {"model": "solid"},
+    "hex20": {"model": "solid", "cell": "hex20"},
+    "tet10": {"model": "solid", "cell": "tet10"},
+}
+
+
+def wetted(model, x):
+    """Of both sides, up to x."""
+    return 2 * {"solid": 0.1 * x, "axisymmetric": 2 * math.pi * x * (CENTRE + x / 2)}.get(model, x)
+
+
+def fronts(verdicts, driver):
+    for name, more in VARIANTS.items():
+        run = driver.run(write(wedge(**more), driver.output / "wedge.yaml"), label=name)
+        model, off, late = more.get("model", "plane_strain"), 0.0, []
+        for step in run.steps:
+            oil = step["fluids"]["oil"]
+            reached = min(1, oil["pressure"] / PEAK)
+            facet = wetted(model, 1) / 2 * (1 / CELLS["layer"] + 1 / CELLS["die"])
+            off = max(off, abs(oil["area"] - wetted(model, reached)) / facet)
+            late.append(oil["at_outlet"] == (oil["pressure"] >= PEAK * (1 - BALANCE)))
+        verdicts.below(f"{name}: front against p / peak", off, FACETS_OFF, "facets, in the worst of the steps")
+        verdicts.true(f"{name}: leaks at the peak of the contact's pressure", all(late), "not a step before, not one after")
+
+
+def balance(verdicts, driver):
+    """What holds the layer is what die and fluid press it by: the fluid's force is its pressure times the way from the lower corner to the front,
+    turned by a right angle. The front is at one of the nodes, and at the others this is far from true."""
+    run = driver.run(write(wedge(), driver.output / "wedge.yaml"), label="balance")
+    worst = 0.0
+    for k, step in enumerate(run.steps):
+        table, pressure, base = run.interface("seal", k + 1), step["fluids"]["oil"]["pressure"], step["reactions"]["base"]
+        x, y = table["X"] + table["ux"], HEIGHT + table["uy"]
+        left = np.hypot(base[0] + table["fx"].sum() + pressure * y, base[1] + table["fy"].sum() - pressure * x)
+        worst = max(worst, left.min() / (PEAK / 2))
+    verdicts.below("reaction, die and fluid on the layer", worst, BALANCE, "0, in every step")
+
+
+def back(verdicts, driver):
+    """The pressure falls again: the front follows in the same step."""
+    curve = [0, 0, 1, 0, 7, 0.8, STEPS, 0.1]
+    run = driver.run(write(wedge(curve=curve), driver.output / "back.yaml"), label="back")
+    facet = 1 / CELLS["layer"] + 1 / CELLS["die"]
+    off = max(abs(s["fluids"]["oil"]["area"] - 2 * s["fluids"]["oil"]["pressure"] / PEAK) / facet for s in run.steps)
+    verdicts.below("up and down: front against p / peak", off, FACETS_OFF, "facets, in the worst of the steps")
+    verdicts.true("up and down: never at the outlet", not any(s["fluids"]["oil"]["at_outlet"] for s in run.steps), "0.88 of the peak at most")
+
+
+def ranks(verdicts, driver):
+    scene = write(wedge(), driver.output / "ranks.yaml")
+    numbers = lambda run: [v for s in run.steps for v in [s["fluids"]["oil"]["area"], *s["reactions"]["base"]]]
+    one = driver.run(scene, "-output_restart_every", 1, "-output_restart_keep", 0, label="one rank")
+    for n in (2, 3):
+        more = driver.run(scene, label=f"{n} ranks", ranks=n)
+        worst = max(abs(a - b) for a, b in zip(numbers(one), numbers(more)))
+        verdicts.below(f"{n} ranks: areas and reactions", worst / (PEAK / 2), RANKS, "those of one")
+    again = driver.run(scene, "-restart", one.directory / "restart_6.bin", label="restart")
+    verdicts.true("restart in the middle", numbers(again)[-12:] == numbers(one)[-12:], "the same bits")
+
+
+def tangent(verdicts, driver):
+    """At large strain: what presses moves and stretches. The die is longer, for where two ends meet weights have a kink."""
+    scene = wedge(steps={"end": 6, "count": 6})
+    scene["layer"] |= {"material": "neo_hooke", "cells": [8, 1]}
+    scene["die"] |= {"material": "neo_hooke", "cells": [6, 1], "lower": [-0.03, HEIGHT], "upper": [1.03, 3 * HEIGHT]}
+    run = driver.run(write(scene, driver.output / "tangent.yaml"), "-snes_test_jacobian", "-snes_test_err", 5e-9, label="tangent")
+    verdicts.true("tangent: the fluid is between the surfaces", run.steps[-1]["fluids"]["oil"]["area"] > 0.3, "of a length of 1, on both sides")
+    whole_matrix(verdicts, "fluid", run)
+
+
+def refused(verdicts, driver):
+    for what, load, says in (
+        ("without a pressure", {"pressure": None, "traction": [0, 1]}, "oil.into: only a `pressure` gets between surfaces"),
+        ("into nothing", {"into": "leak"}, "oil.into: 'leak' is no interface of two sides"),
+        ("with an outlet alone", {"into": None}, "oil.outlet: it is of a pressure that gets between surfaces"),
+        ("from a surface that is none", {"outlet": "die.top"}, "there is no surface 'die.top'"),
+    ):
+        scene = wedge()
+        scene["oil"] = {k: v for k, v in (scene["oil"] | load).items() if v is not None}
+        run = driver.run(write(scene, driver.output / "refused.yaml"), label="refused", expect=1)
+        verdicts.true(f"a fluid {what}: refused", says in run.text and "PETSC ERROR" not in run.text, f"says: {says}")
+
+
+def fluid(verdicts, driver):
+    driver.output.mkdir(parents=True, exist_ok=True)
+    fronts(verdicts, driver)
+    balance(verdicts, driver)
+    back(verdicts, driver)
+    ranks(verdicts, driver)
+    tangent(verdicts, driver)
+    refused(verdicts, driver)
