@@ -1,4 +1,4 @@
-/* Conditions of contact that follow from others: which ones, and that they are left out (redundant.c, dependent.c). */
+/* Conditions of contact that follow from others: which ones, and that they are left out (redundant.c, suspects.c, suspects_judge.c, dependent.c). */
 #ifndef SNES_CONTACT_REDUNDANT_H
 #define SNES_CONTACT_REDUNDANT_H
 #include "solve/solve.h"
@@ -11,6 +11,13 @@ struct Multiplier {
   PetscBool tied, held, shared;
   PetscReal X[3], coverage, steps_open;
 };
+
+/* suspects.c: may an interface have any: are its forces a multiplier's times weights? All of them, of all ranks, in order; to be freed */
+PetscBool      suspects_may_be(const Interface *interface);
+PetscErrorCode suspects_find(const Contact *contact, PetscInt *n, Multiplier **all);
+int            suspects_order(const void *one, const void *two); /* for qsort */
+/* suspects_judge.c: which are redundant, at u_local */
+PetscErrorCode suspects_judge(Solve *solve, PetscInt n, const Multiplier suspects[], PetscBool redundant[]);
 
 /* dependent.c: of `n` multipliers, which follow from those before them; S (n x n, overwritten): products of their forces */
 void dependent_find(PetscInt n, const Multiplier multipliers[], PetscReal S[], PetscBool dependent[]);
