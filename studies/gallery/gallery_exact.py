@@ -1,4 +1,4 @@
-"""The entries of the gallery with exact answers of docs/exact.md."""
+"""The entries of the gallery with exact answers of docs/exact.md, and of fluids."""
 
 import numpy as np
 
@@ -71,10 +71,25 @@ def draw_gears(run, folder):
     ]
 
 
+def o_ring(verdicts, driver):
+    run = driver.run("o_ring", *SEEN)
+    areas = [step["fluids"]["oil"]["area"] for step in run.steps]
+    verdicts.true("O-ring: tight", not run.steps[-1]["fluids"]["oil"]["at_outlet"], "the fluid presses it against the wall")
+    verdicts.true("O-ring: the fluid comes on as it presses more", areas[-1] > areas[3], "since the ring is squeezed")
+    return run
+
+
+def draw_o_ring(run, folder):
+    view = View("above", (-1.55, 1.5, -1.55, 1.55), 0.5, (4.6, 4.6), "plane")
+    return moving("o_ring", run, view, folder, lambda t: f"fluid at {max(0, 8 * (t - 1)):g}", pictures=3)
+
+
 ENTRIES = [
     Entry("wave", "Westergaard: a wave pressed flat", "Periodic, so that nothing is finite: the test of the border of a contact. The border lies where nodes "
           "that decide are worst.", 0.5, wave, draw_wave),
     Entry("rolling", "Carter: two cylinders that roll", "One drives the other by half of what slides: stick at the leading edge, slip behind, and one lags "
           "behind.", 3.0, rolling, draw_rolling),
+    Entry("o_ring", "An O-ring in its groove", "Squeezed, then pressed by a fluid, which gets between ring and groove as far as it can.", 0.2, o_ring, draw_o_ring,
+          ("o_ring_strip.png",)),
     Entry("gears", "Involute gears", "Torques as the numbers of teeth at every angle.", 2.0, gear_pair, draw_gears),
 ]

@@ -63,6 +63,8 @@ def body_polygons(run, view, step):
         body = run.cell_bodies(step, kind)
         for number in np.unique(body):
             of_body = cells[kind][body == number]
+            if view.kind == "plane" and len(of_body) == 1:  # the frame of an analytic body
+                continue
             yield number, front_quads(points, of_body) if view.kind == "section" else of_body[:, : CORNERS[kind]]
 
 

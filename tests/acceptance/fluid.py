@@ -15,6 +15,8 @@ FACETS_OFF = 2.0
 BALANCE = 1e-9
 # Ranks add in another order; the numbers of unknowns differ, too.
 RANKS = 1e-9
+# The front moves by facets, and the pressure by steps of 0.9 %.
+LEAKS = 0.03
 CELLS = {"layer": 40, "die": 30}
 CENTRE = 3.0  # of the ring that the strip becomes
 # So many steps up to a tenth above the peak, the first of which presses the die down.
@@ -139,14 +141,51 @@ def tangent(verdicts, driver):
     whole_matrix(verdicts, "fluid", run)
 
 
+def lip(around):
+    """A soft lip under a plate, with so many facets around; the fluid's pressure goes up to 2.5, from 2.1 on in steps of 0.02."""
+    return {
+        "schema": 1,
+        "model": "plane_strain",
+        "bodies": ["lip", "plate"],
+        "lip": {"type": "box", "polar": True, "lower": [0.7, 10], "upper": [1, 170], "cells": [around // 8, around], "young": 20, "poisson": 0.1,
+                "material": "neo_hooke"},
+        "plate": {"type": "box", "lower": [-0.8, 1], "upper": [0.8, 1.3], "cells": [5 * around // 4, 3], "young": 2000, "poisson": 0.3},
+        "surfaces": ["port", "air"],
+        "port": {"of": "lip.xmax", "within": [0.4, 0, 2, 2]},
+        "air": {"of": "lip.xmax", "within": [-2, 0, -0.4, 2]},
+        "supports": ["base", "press"],
+        "base": {"surface": "lip.xmin", "components": ["x", "y"]},
+        "press": {"surface": "plate.ymax", "components": ["x", "y"], "value": [0, -0.03], "curve": [0, 0, 1, 1]},
+        "loads": ["oil"],
+        "oil": {"surface": ["port", "plate.xmax"], "pressure": 2.5, "into": "seal", "outlet": ["air", "plate.xmin"], "curve": [1, 0, 2, 0.84, 3, 1]},
+        "interfaces": ["seal"],
+        "seal": {"nonmortar": "lip.xmax", "mortar": "plate.ymin"},
+        "steps": {"stages": [1, 2, 2, 6, 3, 20]},
+        "output": {"vtu": "none", "csv": "none"},
+    }
+
+
+def leaks(verdicts, driver):
+    """Where the pressure of contact is none that is known: on a mesh and on one twice as fine."""
+    opens = []
+    for around in (64, 128):
+        run = driver.run(write(lip(around), driver.output / "lip.yaml"), label=f"lip_{around}")
+        opens.append(min(s["fluids"]["oil"]["pressure"] for s in run.steps if s["fluids"]["oil"]["at_outlet"]))
+    verdicts.below("lip: the pressure at which it opens", abs(opens[0] / opens[1] - 1), LEAKS, "on a mesh twice as fine")
+
+
 def refused(verdicts, driver):
-    for what, load, says in (
+    tied = {"seal": {"nonmortar": "layer.ymax", "mortar": "die.ymin", "law": "tied"}}
+    rigid = {"die": {"type": "rigid", "from": "box", "lower": [0, HEIGHT], "upper": [1, 3 * HEIGHT], "cells": [30, 2], "reference": [0.5, 2 * HEIGHT]}}
+    for what, load, says, *more in (
+        ("into a tie", {}, "oil.into: 'seal' is tied", tied),
+        ("on a rigid side", {"surface": "layer.xmin", "outlet": None}, "is a side of 'seal' and rigid", rigid | {"press": {"body": "die", "components": ["x", "y", "rz"]}}),
         ("without a pressure", {"pressure": None, "traction": [0, 1]}, "oil.into: only a `pressure` gets between surfaces"),
         ("into nothing", {"into": "leak"}, "oil.into: 'leak' is no interface of two sides"),
         ("with an outlet alone", {"into": None}, "oil.outlet: it is of a pressure that gets between surfaces"),
         ("from a surface that is none", {"outlet": "die.top"}, "there is no surface 'die.top'"),
     ):
-        scene = wedge()
+        scene = wedge() | (more[0] if more else {})
         scene["oil"] = {k: v for k, v in (scene["oil"] | load).items() if v is not None}
         run = driver.run(write(scene, driver.output / "refused.yaml"), label="refused", expect=1)
         verdicts.true(f"a fluid {what}: refused", says in run.text and "PETSC ERROR" not in run.text, f"says: {says}")
@@ -159,4 +198,5 @@ def fluid(verdicts, driver):
     back(verdicts, driver)
     ranks(verdicts, driver)
     tangent(verdicts, driver)
+    leaks(verdicts, driver)
     refused(verdicts, driver)

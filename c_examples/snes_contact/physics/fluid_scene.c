@@ -1,5 +1,6 @@
 /* Fluids as the scene has them: `into` and `outlet` of a pressure. */
 #include "physics/fluid.h"
+#include <string.h>
 
 /* The surfaces of a list of names, or of one. */
 static PetscErrorCode find(Scene *scene, const Physics *physics, const char *map, const char *key, PetscInt *n, const Surface ***surfaces)
@@ -31,6 +32,16 @@ static PetscErrorCode refuse_rigid(Scene *scene, const Physics *physics, const c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What holds together lets nothing between, whatever pulls at it. */
+static void refuse_joined(Scene *scene, const char *load, const char *interface)
+{
+  char law[NAME_LENGTH] = "";
+  scene_string(scene, interface, "law", law, sizeof(law));
+  if (!strcmp(law, "tied")) scene_fail(scene, load, "into", "'%s' is tied: nothing gets between its sides.", interface);
+  if (scene_has(scene, interface, "bond_stiffness"))
+    scene_fail(scene, load, "into", "'%s' is bonded, and where a fluid gets into a bond is not modelled.", interface);
+}
+
 PetscErrorCode fluid_read(Scene *scene, const Physics *physics, Load *load)
 {
   static const char *const sides[] = {"nonmortar", "mortar"};
@@ -53,6 +64,7 @@ PetscErrorCode fluid_read(Scene *scene, const Physics *physics, Load *load)
     for (int side = 0; side < 2; side++) {
       if (!scene_has(scene, into[i], sides[side]))
         scene_fail(scene, load->name, "into", "'%s' is no interface of two sides: it has no `%s`.", into[i], sides[side]);
+      refuse_joined(scene, load->name, into[i]);
       before = fluid->n_sides;
       PetscCall(find(scene, physics, into[i], sides[side], &fluid->n_sides, &fluid->sides));
       for (PetscInt k = before; k < fluid->n_sides; k++)
