@@ -11,6 +11,8 @@ YOUNG, HEIGHT, SLOPE = 100.0, 0.05, 0.001
 PEAK = YOUNG * SLOPE / HEIGHT
 # The layer carries each place by itself but for its shear, over about its height, which is two facets; the front is at an end of a facet.
 FACETS_OFF = 2.0
+# Where points decide facets by the front are open in part: one more.
+POINTS_OFF = 3.0
 # Newton's tolerance of 1e-11 of the largest force.
 BALANCE = 1e-9
 # Ranks add in another order; the numbers of unknowns differ, too.
@@ -18,6 +20,7 @@ RANKS = 1e-9
 # The front moves by facets, and the pressure by steps of 0.9 %.
 LEAKS = 0.03
 CELLS = {"layer": 40, "die": 30}
+DENSITY = 1e-6  # waves cross the strip in a ten thousandth of a step
 CENTRE = 3.0  # of the ring that the strip becomes
 # So many steps up to a tenth above the peak, the first of which presses the die down.
 STEPS, LAST = 12, 1.1
@@ -56,8 +59,8 @@ def wedge(model="plane_strain", cell="", roles=("layer", "die"), contact=None, c
     }
     if model == "axisymmetric":
         scene["press"]["origin"] = [CENTRE, 0]
-    for name in CELLS if cell else ():
-        scene[name]["cell"] = cell
+    for name in CELLS:
+        scene[name] |= ({"cell": cell} if cell else {}) | ({"density": DENSITY} if "dynamics" in more else {})
     return scene | more
 
 
@@ -68,6 +71,8 @@ VARIANTS = {
     "tri6": {"cell": "tri6"},
     "roles exchanged": {"roles": ("die", "layer")},
     "standard": {"contact": {"basis": "standard"}},
+    "points that decide": {"contact": {"decision": "points"}},
+    "dynamics": {"dynamics": {"rho_inf": 1, "mass_damping": 50}},
     "condensed": {"unknowns": "displacements"},
     "iterative": {"solver": "iterative"},
     "axisymmetric": {"model": "axisymmetric"},
@@ -92,7 +97,7 @@ def fronts(verdicts, driver):
             facet = wetted(model, 1) / 2 * (1 / CELLS["layer"] + 1 / CELLS["die"])
             off = max(off, abs(oil["area"] - wetted(model, reached)) / facet)
             late.append(oil["at_outlet"] == (oil["pressure"] >= PEAK * (1 - BALANCE)))
-        verdicts.below(f"{name}: front against p / peak", off, FACETS_OFF, "facets, in the worst of the steps")
+        verdicts.below(f"{name}: front against p / peak", off, POINTS_OFF if "points" in name else FACETS_OFF, "facets, in the worst of the steps")
         verdicts.true(f"{name}: leaks at the peak of the contact's pressure", all(late), "not a step before, not one after")
 
 

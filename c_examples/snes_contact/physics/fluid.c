@@ -9,6 +9,9 @@
 
 /* Of the largest pressure of contact: less is an open place's rounding. */
 static const PetscReal ROUNDING = 1e-10;
+/* By so much of the fluid's pressure surfaces may press each other where it is, and it stays, as long as its pressure does not fall: beside the front they
+ * often do a little, and a front that goes back for that comes to rest elsewhere. A pressure that falls is followed at once. */
+static const PetscReal HOLDS = 0.5;
 
 PetscBool fluid_presses(const Load *load, PetscInt k, const Face *face, const PetscScalar flags[])
 {
@@ -58,7 +61,6 @@ PetscErrorCode fluid_create(Physics *physics, Load *load)
   PetscCall(VecRestoreArray(fluid->start, &flags));
   PetscCall(share_flags(physics, fluid->start));
   PetscCall(VecDuplicate(fluid->start, &fluid->reached));
-  PetscCall(VecDuplicate(fluid->start, &fluid->settled));
   PetscCall(VecCopy(fluid->start, fluid->reached));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -75,20 +77,19 @@ PetscErrorCode fluid_destroy(Load *load)
   PetscCall(PetscFree(fluid->named));
   PetscCall(VecDestroy(&fluid->start));
   PetscCall(VecDestroy(&fluid->reached));
-  PetscCall(VecDestroy(&fluid->settled));
   PetscCall(PetscFree(load->fluid));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* From where `flags` say that the fluid is, on over the faces that let it in: `most` is what it forces itself against. */
-static PetscErrorCode flood(Physics *physics, const Load *load, Vec pressure, PetscReal most, Vec flags)
+/* From its source, in `flags`, over the faces that let it in: `most` is what it forces itself against, `stays` against what it stays where it is. */
+static PetscErrorCode flood(Physics *physics, const Fluid *fluid, Vec pressure, PetscReal most, PetscReal stays, Vec flags)
 {
-  const Fluid       *fluid = load->fluid;
-  const PetscScalar *p;
+  const PetscScalar *p, *now;
   PetscScalar       *at;
   PetscInt           more = 1;
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(pressure, &p));
+  PetscCall(VecGetArrayRead(fluid->reached, &now));
   while (more) {
     more = 0;
     PetscCall(VecGetArray(flags, &at));
@@ -99,8 +100,9 @@ static PetscErrorCode flood(Physics *physics, const Load *load, Vec pressure, Pe
       for (PetscInt a = 0; a < cell_corners(face.kind); a++) {
         const PetscScalar *flag = at + face.dofs[a];
         const PetscBool    reached = (PetscBool)(PetscRealPart(flag[FLUID_REACHED]) > 0);
+        const PetscReal    against = PetscRealPart(now[face.dofs[a] + FLUID_REACHED]) > 0 ? stays : most;
         next = (PetscBool)(next || reached || PetscRealPart(flag[FLUID_SOURCE]) > 0);
-        lets = (PetscBool)(lets && PetscRealPart(p[face.dofs[a]]) <= most);
+        lets = (PetscBool)(lets && PetscRealPart(p[face.dofs[a]]) <= against);
         all  = (PetscBool)(all && reached);
       }
       if (!next || !lets || all) continue;
@@ -112,6 +114,7 @@ static PetscErrorCode flood(Physics *physics, const Load *load, Vec pressure, Pe
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &more, 1, MPIU_INT, MPI_MAX, PETSC_COMM_WORLD));
     if (more) PetscCall(share_flags(physics, flags));
   }
+  PetscCall(VecRestoreArrayRead(fluid->reached, &now));
   PetscCall(VecRestoreArrayRead(pressure, &p));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -209,13 +212,13 @@ static PetscErrorCode measure(const Physics *physics, const Load *load)
 }
 
 /* Where it would come to anew, also where that is less than it is, if it is the first time in the step; else what there is more. */
-static PetscErrorCode take(const Physics *physics, Fluid *fluid, PetscBool first, PetscBool *any)
+static PetscErrorCode take(const Physics *physics, Fluid *fluid, Vec anew, PetscBool first, PetscBool *any)
 {
   const PetscScalar *there;
   PetscScalar       *at;
   PetscFunctionBegin;
   *any = PETSC_FALSE;
-  PetscCall(VecGetArrayRead(fluid->settled, &there));
+  PetscCall(VecGetArrayRead(anew, &there));
   PetscCall(VecGetArray(fluid->reached, &at));
   for (PetscInt k = 0; k < physics->unknowns.n_local; k++) {
     const PetscBool differs = (PetscBool)(PetscRealPart(there[k]) > PetscRealPart(at[k]) || (first && PetscRealPart(there[k]) < PetscRealPart(at[k])));
@@ -223,7 +226,7 @@ static PetscErrorCode take(const Physics *physics, Fluid *fluid, PetscBool first
     *any = (PetscBool)(*any || differs);
   }
   PetscCall(VecRestoreArray(fluid->reached, &at));
-  PetscCall(VecRestoreArrayRead(fluid->settled, &there));
+  PetscCall(VecRestoreArrayRead(anew, &there));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, any, 1, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -238,8 +241,9 @@ PetscErrorCode fluid_advance(Physics *physics, Vec contact, PetscBool first, Pet
     const PetscReal now   = PetscMax(0, load->pressure * curve_value(&load->curve, physics->t));
     PetscReal       largest;
     PetscBool       any;
-    Vec             forces, pressure;
+    Vec             forces, pressure, anew;
     if (!fluid) continue;
+    PetscCall(VecDuplicate(contact, &anew));
     PetscCall(VecDuplicate(contact, &forces));
     PetscCall(VecDuplicate(contact, &pressure));
     PetscCall(VecCopy(contact, forces));
@@ -247,11 +251,14 @@ PetscErrorCode fluid_advance(Physics *physics, Vec contact, PetscBool first, Pet
     PetscCall(fluid_pressures(physics, fluid, forces, pressure));
     PetscCall(VecNorm(pressure, NORM_INFINITY, &largest));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
-    PetscCall(VecCopy(fluid->reached, fluid->settled));
-    PetscCall(dry(physics, fluid->settled));
-    PetscCall(flood(physics, load, pressure, now + ROUNDING * largest, fluid->settled));
-    PetscCall(take(physics, fluid, first, &any));
-    *moved = (PetscBool)(*moved || any);
+    largest = now + ROUNDING * largest;
+    PetscCall(VecCopy(fluid->reached, anew));
+    PetscCall(dry(physics, anew));
+    PetscCall(flood(physics, fluid, pressure, largest, now < fluid->before ? largest : largest + HOLDS * now, anew));
+    PetscCall(take(physics, fluid, anew, first, &any));
+    *moved      = (PetscBool)(*moved || any);
+    fluid->now = now;
+    PetscCall(VecDestroy(&anew));
     PetscCall(VecDestroy(&pressure));
     PetscCall(VecDestroy(&forces));
     PetscCall(measure(physics, load));
@@ -265,7 +272,8 @@ PetscErrorCode fluid_accept(Physics *physics, PetscBool quiet)
   for (PetscInt l = 0; l < physics->n_loads; l++) {
     Fluid *fluid = physics->loads[l].fluid;
     if (!fluid) continue;
-    PetscCall(VecCopy(fluid->settled, fluid->start));
+    PetscCall(VecCopy(fluid->reached, fluid->start));
+    fluid->before = fluid->now;
     if (!fluid->at_outlet || fluid->leaks >= 0) continue;
     fluid->leaks = physics->t;
     if (!quiet)

@@ -13,7 +13,8 @@ struct Fluid {
   const Surface **sides, **outlets;
   PetscInt        n_faces, *faces, n_out, *out; /* of all sides; of outlets */
   PetscBool      *named;        /* per face of a side: it is of the load's own surface, too, so that the load itself presses it */
-  Vec             start, reached, settled; /* FLUID_...: where the step begins; now; where the fluid would come to anew */
+  Vec             start, reached; /* FLUID_...: where it is when the step begins; now */
+  PetscReal       before, now;    /* its pressure at t_n and now, where it is any */
   PetscReal       area;         /* of what it presses between the surfaces, on both sides and all ranks */
   PetscBool       at_outlet;
   PetscInt        n_outlet_faces; /* of all ranks */

@@ -33,7 +33,7 @@ static PetscErrorCode refuse_rigid(Scene *scene, const Physics *physics, const c
 }
 
 /* What holds together lets nothing between, whatever pulls at it. */
-static void refuse_joined(Scene *scene, const char *load, const char *interface)
+static void refuse_interface(Scene *scene, const char *load, const char *interface)
 {
   char law[NAME_LENGTH] = "";
   scene_string(scene, interface, "law", law, sizeof(law));
@@ -64,7 +64,7 @@ PetscErrorCode fluid_read(Scene *scene, const Physics *physics, Load *load)
     for (int side = 0; side < 2; side++) {
       if (!scene_has(scene, into[i], sides[side]))
         scene_fail(scene, load->name, "into", "'%s' is no interface of two sides: it has no `%s`.", into[i], sides[side]);
-      refuse_joined(scene, load->name, into[i]);
+      refuse_interface(scene, load->name, into[i]);
       before = fluid->n_sides;
       PetscCall(find(scene, physics, into[i], sides[side], &fluid->n_sides, &fluid->sides));
       for (PetscInt k = before; k < fluid->n_sides; k++)

@@ -70,6 +70,8 @@ static PetscErrorCode archive_past(Solve *solve, Past *past, Archive *archive)
     if (load->fluid) PetscCall(contact_archive_vector(solve->contact, name, load->fluid->start, archive));
     PetscCall(PetscStrlcat(name, ".leaks", sizeof(name)));
     if (load->fluid) PetscCall(archive_reals(archive, name, 1, &load->fluid->leaks));
+    PetscCall(PetscStrlcat(name, ".before", sizeof(name)));
+    if (load->fluid) PetscCall(archive_reals(archive, name, 1, &load->fluid->before));
   }
   PetscCall(contact_archive_unknowns(solve->contact, "last", past->last, archive));
   if (past->have_before) PetscCall(contact_archive_unknowns(solve->contact, "before", past->before, archive));
