@@ -263,8 +263,8 @@ test-long:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory -j2 --output-sync=line TESTS=ON cmake-build reference
 	@$(LOCKED) cmake --build $(BUILD) --parallel $(JOBS) --target sanitize
-	$(SAY) "The Rust tests that take longer, those beside the sources, a pass of the benches"
-	cargo test --locked --lib --bench kernels $(LONG_RUST_TESTS:%=--test %)
+	$(SAY) "The Rust tests that take longer, and those beside the sources"
+	cargo test --locked --lib $(LONG_RUST_TESTS:%=--test %)
 	cargo test --locked --test interface long::
 	$(SAY) "The tests that take longer (ctest)"
 	@cd $(BUILD) && ctest --output-on-failure --no-tests=error --parallel $(JOBS) -L long
@@ -272,6 +272,8 @@ test-long:
 test-full:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory cmake-build TESTS=ON
+	$(SAY) "A pass of the benches"
+	cargo test --locked --bench kernels
 	$(SAY) "The tests that take longest (ctest)"
 	@cd $(BUILD) && ctest --output-on-failure --no-tests=error --parallel $(JOBS) -L full
 
