@@ -1,5 +1,8 @@
 """Pins in rings with clearance, pulled by force: gaps close in a chain, from the lug by the pin to the fork, and the pin is loose
-in directions that the normals of contact never hold: along its axis and about it, which friction holds once it is pressed."""
+in directions that the normals of contact never hold: along its axis and about it, which friction holds once it is pressed.
+
+An oblique pull at the lug's rim turns it about the pin, until it points along the pull as far as friction lets it. A bush round the
+pin makes the chain of gaps longer by one."""
 
 import math
 
@@ -11,6 +14,10 @@ CELLS = (12, 14, 16, 20, 24, 28)  # round the pin
 # Directions in which a support holds the one end of the pin; the rest is loose.
 HELD = {"x, y, z": "xyz", "y, z": "yz", "x, y": "xy", "z": "z", "y": "y", "nothing": ""}
 LOAD = 20.0
+# Forces at the lug's rim, 2 from the pin's axis, in all: those beyond a slope of 0.2 or so turn it.
+OBLIQUE = {"6 along y": (60, 6, 3), "18 along y": (60, 18, 3), "18 against y": (60, -18, 3), "6 along z": (60, 0, 6), "3 along y": (60, 3, 1)}
+# What the clearance may let it turn beside: the law of small strains does not widen the hole.
+LAWS = {"linear": {}, "neo_hooke": {"material": "neo_hooke"}}
 # A step ends at 1e-11 of the forces, in each of a few bodies.
 BALANCE = 1e-9
 # Of all steps; gaps that close one by one, by hand, take as many.
@@ -50,28 +57,64 @@ def joint(clearance=0.01, around=16, held=""):
     return scene
 
 
+def oblique(force, law):
+    """The joint without its guide, pulled at the lug's rim: at (2, 0, z) on its three layers of vertices."""
+    scene = joint()
+    scene["supports"].remove("guide")
+    del scene["guide"], scene["pull"]
+    scene["loads"] = [f"pull{k}" for k in range(3)]
+    for k, name in enumerate(scene["loads"]):
+        scene[name] = {"body": "lug", "point": [2, 0, 0.5 * (k - 1)], "force": [f / 3 for f in force]}
+    for body in scene["bodies"]:
+        scene[body] |= law
+    return scene
+
+
+def bushed(clearance):
+    """A bush between the lug and the pin."""
+    scene = joint(clearance)
+    scene["bodies"].append("bush")
+    scene["bush"] = ring(1 + clearance, 2, -0.5, 0.5, 16, 110000)
+    scene["lug"] = ring(2 + clearance, 3, -0.5, 0.5, 16, 70000)
+    scene["pull"] = scene["pull"] | {"traction": [LOAD * 2 / 3, 0, 0]}  # over an outside that is as much larger
+    scene["inner"] = {"nonmortar": "bush.xmin", "mortar": "pin.xmax", "friction": 0.2}
+    scene["interfaces"].append("outer")
+    scene["outer"] = {"nonmortar": "lug.xmin", "mortar": "bush.xmax", "friction": 0.2}
+    return scene
+
+
 def load(around):
     """On the facets of the lug's outside, which is 1 high."""
     return LOAD * around * 4 * math.sin(math.pi / around)
 
 
-def pulled(around=16, **more):
-    """All that pulls the lug reaches the fork or the support of the pin; what is loose is told."""
-
-    def run(context):
-        scene = joint(around=around, **more)
-        found = context.solve(scene)
-        result = host.outcome(found)
-        if result.refusal is not None:
-            return result
-        carried = -sum(force[0] for name, force in found.steps[-1]["reactions"].items() if name != "guide")
-        result.below("reaction", abs(carried / load(around) - 1), BALANCE, "the load")
-        result.below("iterations", sum(step["newton_iterations"] for step in found.steps), ITERATIONS, "of all steps")
-        result.below("cut-backs", found.summary["cutbacks"], CUTBACKS, "of all steps")
-        result.true("what is loose is told", "lug" in found.summary["held_by_contact"], "the lug, which only the pin stops")
+def judged(context, scene, force):
+    """All of the load reaches the fork or the support of the pin, in directions that no guide holds; what is loose is told."""
+    found = context.solve(scene)
+    result = host.outcome(found)
+    if result.refusal is not None:
         return result
+    size = math.hypot(*force)
+    for i, axis in enumerate("xyz" if "guide" not in scene else "x"):
+        carried = -sum(reaction[i] for name, reaction in found.steps[-1]["reactions"].items() if name != "guide")
+        result.below(f"reaction along {axis}", abs(carried - force[i]) / size, BALANCE, "the load")
+    result.below("iterations", sum(step["newton_iterations"] for step in found.steps), ITERATIONS, "of all steps")
+    result.below("cut-backs", found.summary["cutbacks"], CUTBACKS, "of all steps")
+    result.true("what is loose is told", "lug" in found.summary["held_by_contact"], "the lug, which only the pin stops")
+    result.figures["laid down by"] = found.summary.get("laid_down", {}).get("moved", 0.0)
+    return result
 
-    return run
+
+def pulled(around=16, **more):
+    return lambda context: judged(context, joint(around=around, **more), (load(around), 0, 0))
+
+
+def pulled_obliquely(force, law):
+    return lambda context: judged(context, oblique(force, law), force)
+
+
+def pulled_by_bush(clearance):
+    return lambda context: judged(context, bushed(clearance), (load(16), 0, 0))
 
 
 def cells():
@@ -79,3 +122,11 @@ def cells():
     yield from series("pin joint, facets round the pin", CELLS, lambda n: pulled(around=n), quick=(20,))
     loose = lambda name: pulled(held=HELD[name])
     yield from series("pin joint, what holds the pin's end", tuple(HELD), loose)
+    for name, law in LAWS.items():
+        yield from series(
+            f"pin joint, oblique pull, {name}",
+            tuple(OBLIQUE),
+            lambda text, law=law: pulled_obliquely(OBLIQUE[text], law),
+            quick=("18 along y",) if name == "linear" else (),
+        )
+    yield from series("pin joint with a bush, clearance", CLEARANCES[1:5], lambda text: pulled_by_bush(float(text)))
