@@ -29,7 +29,7 @@ static const PetscReal ALIKE = 0.9, FARTHEST = 0.2, EAGER = 32, HESITANT = 0.125
  * is left. If none are, the last place will do where the last move is shorter than NEARLY of that. What sweeps still change, over the reach
  * of a first move: what they leave is a turn, which takes what touches along the surface, and friction keeps it there. */
 enum { RESTS = 2 };
-static const PetscReal REST = 2.5e-2, NEARLY = 0.1, SWEPT = 1e-9;
+static const PetscReal REST = 2.5e-2, NEARLY = 0.1, SWEPT = 1e-7;
 /* How deep touching nodes end, over the edge: about what the loads press them in by, within bounds. */
 static const PetscReal DEEPEST = 1e-2, SHALLOWEST = 1e-8;
 

@@ -16,6 +16,8 @@ typedef struct {
   Gap       *gaps;                 /* of all ranks */
   PetscReal *open, *force;         /* n_gaps x n: G; n_gaps: l */
   PetscReal *slide, *rub;          /* n_gaps x 2 x n: how motions slide along two tangents; n_gaps x 2: friction along these */
+  PetscReal *opens, *slides;       /* n_gaps: squares of rows of both */
+  PetscReal  pushed;               /* the load that the forces belong to */
 } Settle;
 
 PetscReal settle_dot(PetscInt n, const PetscReal a[], const PetscReal b[]);

@@ -2,7 +2,7 @@
 #include "solve/settle.h"
 
 /* Sweeps for one move. */
-enum { SWEEPS = 5000 };
+enum { SWEEPS = 1000 };
 /* A node that opens or slides by less than this part of a motion's size does not stop it. */
 static const PetscReal NOTHING = 1e-6;
 /* This part of friction is counted. Where bodies come to rest so, friction has a reserve: what touches sticks, and holds them while they
@@ -38,7 +38,8 @@ PetscErrorCode settle_forget_gaps(Settle *s)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree(s->gaps));
-  PetscCall(PetscFree4(s->open, s->force, s->slide, s->rub));
+  PetscCall(PetscFree4(s->open, s->slide, s->opens, s->slides));
+  PetscCall(PetscFree2(s->force, s->rub));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -61,28 +62,44 @@ static void tangents(const PetscReal normal[3], PetscReal t[2][3])
   }
 }
 
-static PetscErrorCode find_rows(Settle *s)
+static PetscReal squared(const Settle *s, const PetscReal row[])
 {
+  return settle_dot(s->n, row, row);
+}
+
+/* Forces of the last move are those that the next one starts from, where the gaps are the same. */
+static PetscErrorCode find_rows(Settle *s, PetscInt n_before)
+{
+  PetscReal *force = s->force, *rub = s->rub;
   PetscFunctionBegin;
-  PetscCall(PetscCalloc4(s->n_gaps * s->n, &s->open, s->n_gaps, &s->force, 2 * s->n_gaps * s->n, &s->slide, 2 * s->n_gaps, &s->rub));
+  PetscCall(PetscFree4(s->open, s->slide, s->opens, s->slides));
+  PetscCall(PetscCalloc4(s->n_gaps * s->n, &s->open, 2 * s->n_gaps * s->n, &s->slide, s->n_gaps, &s->opens, s->n_gaps, &s->slides));
+  if (n_before != s->n_gaps) {
+    PetscCall(PetscFree2(force, rub));
+    PetscCall(PetscCalloc2(s->n_gaps, &s->force, 2 * s->n_gaps, &s->rub));
+  }
   for (PetscInt g = 0; g < s->n_gaps; g++) {
     PetscReal t[2][3];
     find_row(s, &s->gaps[g], s->gaps[g].normal, s->open + g * s->n);
     tangents(s->gaps[g].normal, t);
     for (int k = 0; k < 2; k++)
       find_row(s, &s->gaps[g], t[k], s->slide + (2 * g + k) * s->n);
+    s->opens[g] = squared(s, s->open + g * s->n);
+    for (int k = 0; k < 2; k++)
+      s->slides[g] = PetscMax(s->slides[g], squared(s, s->slide + (2 * g + k) * s->n));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode settle_find_gaps(Solve *solve, Settle *s)
 {
-  const PetscMPIInt size = solve->mesh->size;
+  const PetscMPIInt size     = solve->mesh->size;
+  const PetscInt    n_before = s->gaps ? s->n_gaps : -1;
   PetscInt          n    = 0, all = 0;
   PetscMPIInt      *counts, *starts, bytes;
   Gap              *mine;
   PetscFunctionBegin;
-  PetscCall(settle_forget_gaps(s));
+  PetscCall(PetscFree(s->gaps));
   for (PetscInt i = 0; i < solve->contact->n_interfaces; i++)
     all += solve->contact->interfaces[i].part.n1;
   PetscCall(PetscMalloc1(all, &mine));
@@ -97,7 +114,7 @@ PetscErrorCode settle_find_gaps(Solve *solve, Settle *s)
   s->n_gaps = starts[size] / (PetscInt)sizeof(Gap);
   PetscCall(PetscMalloc1(s->n_gaps, &s->gaps));
   PetscCallMPI(MPI_Allgatherv(mine, bytes, MPI_BYTE, s->gaps, counts, starts, MPI_BYTE, PETSC_COMM_WORLD));
-  PetscCall(find_rows(s));
+  PetscCall(find_rows(s, n_before));
   PetscCall(PetscFree2(counts, starts));
   PetscCall(PetscFree(mine));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -113,7 +130,7 @@ static void add(const Settle *s, PetscReal by, const PetscReal row[])
 /* Gap g presses as hard as it must; returns by how much that changes the move. */
 static PetscReal press(Settle *s, PetscInt g)
 {
-  const PetscReal *open = s->open + g * s->n, stiff = settle_dot(s->n, open, open), before = s->force[g];
+  const PetscReal *open = s->open + g * s->n, stiff = s->opens[g], before = s->force[g];
   if (!(stiff > NOTHING * NOTHING)) return 0;
   s->force[g] = PetscMax(0, before - (s->gaps[g].gap + s->depth + settle_dot(s->n, open, s->move)) / stiff);
   add(s, s->force[g] - before, open);
@@ -124,9 +141,9 @@ static PetscReal press(Settle *s, PetscInt g)
 static PetscReal rub(Settle *s, PetscInt g)
 {
   const PetscReal *slide = s->slide + 2 * g * s->n, most = COUNTED * s->gaps[g].friction * s->force[g];
-  const PetscReal  stiff = PetscMax(settle_dot(s->n, slide, slide), settle_dot(s->n, slide + s->n, slide + s->n));
+  const PetscReal  stiff = s->slides[g];
   PetscReal        wanted[2], size, change = 0;
-  if (!(stiff > NOTHING * NOTHING)) return 0;
+  if (!(stiff > NOTHING * NOTHING) || (most == 0 && s->rub[2 * g] == 0 && s->rub[2 * g + 1] == 0)) return 0;
   for (int k = 0; k < 2; k++)
     wanted[k] = s->rub[2 * g + k] - settle_dot(s->n, slide + k * s->n, s->move) / stiff;
   size = PetscSqrtReal(settle_dot(2, wanted, wanted));
@@ -142,9 +159,19 @@ static PetscReal rub(Settle *s, PetscInt g)
 /* From the gaps of now. */
 void settle_find_move(Settle *s, PetscReal accuracy)
 {
-  PetscReal change = PETSC_MAX_REAL;
+  const PetscReal load = PetscSqrtReal(settle_dot(s->n, s->load, s->load)), more = s->pushed > 0 ? load / s->pushed : 1;
+  PetscReal       change = PETSC_MAX_REAL;
+  s->pushed = load;
   for (PetscInt k = 0; k < s->n; k++)
     s->move[k] = s->load[k];
+  for (PetscInt g = 0; g < s->n_gaps; g++) {
+    s->force[g] *= more;
+    add(s, s->force[g], s->open + g * s->n);
+    for (PetscInt k = 2 * g; k < 2 * g + 2; k++) {
+      s->rub[k] *= more;
+      add(s, s->rub[k], s->slide + k * s->n);
+    }
+  }
   for (int sweep = 0; sweep < SWEEPS && change > accuracy; sweep++) {
     change = 0;
     for (PetscInt g = 0; g < s->n_gaps; g++) {
