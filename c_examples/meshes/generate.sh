@@ -19,6 +19,11 @@ mesh() {
     echo "$output  $(wc -c < "$output") bytes"
 }
 
+# A pin joint.
+mesh joint_lug.msh  joint.geo part 1
+mesh joint_fork.msh joint.geo part 2
+mesh joint_pin.msh  joint.geo part 3
+
 # Upper body: non-mortar side. Lower body: mortar side, wider and coarser, so that no facet matches.
 mesh hertz_upper_coarse.msh hertz_cylinder.geo side  1 contact_facets 44 half_width 1.4
 mesh hertz_lower_coarse.msh hertz_cylinder.geo side -1 contact_facets 42 half_width 1.6

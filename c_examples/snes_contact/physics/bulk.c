@@ -169,6 +169,7 @@ static PetscErrorCode evaluate(const Physics *physics, PetscInt c, const View *v
   CellStep      of_cell;
   PetscFunctionBegin;
   cell_displacements(physics, c, view->u, u_cell);
+  laid_take(physics, c, u_cell);
   if (!view->step || !element.material->law->finite) {
     PetscCall(cell_forces(&element, u_cell, f, K, inverted));
     PetscFunctionReturn(PETSC_SUCCESS);

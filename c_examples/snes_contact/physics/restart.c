@@ -99,6 +99,7 @@ PetscErrorCode physics_archive(Physics *physics, Archive *archive)
     PetscCall(archive_reals(archive, "range.rotation", 1, &physics->ranges[b].rotation));
     PetscCall(archive_bools(archive, "range.told", 1, &physics->ranges[b].told));
   }
+  PetscCall(laid_archive(physics, archive));
   for (PetscInt r = 0; r < physics->n_rigids; r++)
     PetscCall(archive_rigid(&physics->rigids[r], archive));
   PetscFunctionReturn(PETSC_SUCCESS);

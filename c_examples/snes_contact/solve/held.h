@@ -6,11 +6,11 @@
 
 /* held_contact.c: what an interface's closed nodes hold, at the place of the last evaluation; before motions_sum() */
 PetscErrorCode motions_add_contact(const Mesh *mesh, const Interface *interface, Motions *m);
-/* Appends what a node may close by, of those that are owned here: which parts of the model; which of their points face each other; along
+/* Appends what a node may close by, of those that are owned here: which parts of the model; where, now; along
  * which normal, how far it is open, and how much friction there is. Ties are left out. */
 typedef struct {
   PetscInt  part[2];
-  PetscReal at[2][3], normal[3], gap, friction; /* at: see motions_point() */
+  PetscReal at[3], normal[3], gap, friction;
 } Gap;
 PetscErrorCode held_gaps(const Solve *solve, const Interface *interface, Gap gaps[], PetscInt *n);
 /* held_words.c: the first n_free rows of m->gram, part by part; `json`, unless NULL, gets them by name */

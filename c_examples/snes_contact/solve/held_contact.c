@@ -155,17 +155,6 @@ PetscErrorCode motions_add_contact(const Mesh *mesh, const Interface *interface,
 /* A node that is covered less has no gap worth looking at. */
 static const PetscReal COVERED = 1e-3;
 
-/* What a node is turned about a body's middle by: its place of now, or, of a body of small strain, which feels a turn of what it was at
- * first only, that one. */
-static void point_of(const Solve *solve, const Interface *interface, int side, PetscInt node, PetscReal x[3])
-{
-  const PetscInt body = interface->skin ? mesh_body_of(solve->mesh, interface->part.vertices[node]) : interface->body[side];
-  if (solve->physics->materials[body].law->finite)
-    position_of(&interface->part, node, x);
-  else
-    contact_vector(interface->part.dimension, interface->part.X, node, x);
-}
-
 /* The mortar vertex nearest to a place of now. */
 static PetscInt nearest(const ContactPart *part, const PetscReal at[3])
 {
@@ -193,19 +182,16 @@ PetscErrorCode held_gaps(const Solve *solve, const Interface *interface, Gap gap
   for (PetscInt a = 0; a < part->n1; a++) {
     const double *result = results + N_RESULTS * a;
     Gap          *gap    = &gaps[*n];
-    PetscReal     at[3], there[3];
+    PetscReal     at[3];
     PetscInt      other;
     if (part->owned[a] != STICKSLIP_NODE_OWN || part->removed[a] == 7 || result[RESULT_COVERAGE] < COVERED) continue;
     position_of(part, a, at);
     other = interface->skin ? verb_opposite(part, a) : nearest(part, at);
     if (other < 0 || other == part->n1 + part->n2) continue;
-    position_of(part, other, there);
     gap->part[0] = part->piece[a];
     gap->part[1] = part->piece[other];
-    point_of(solve, interface, 0, a, gap->at[0]);
-    point_of(solve, interface, 1, other, gap->at[1]);
     for (int i = 0; i < 3; i++) {
-      gap->at[1][i] += at[i] - there[i];
+      gap->at[i]     = at[i];
       gap->normal[i] = result[RESULT_NORMAL + i];
     }
     gap->gap      = result[RESULT_GAP] / result[RESULT_COVERAGE];

@@ -7,115 +7,149 @@
  * slip counts from there. It costs evaluations of the contact, and no matrix, and all gaps of a chain of bodies close together.
  *
  * Each move v of the motions that supports leave free solves
- *   v = t f + sum_i l_i G_i,   l_i >= 0,   g_i + G_i v + depth >= 0,   l_i (g_i + G_i v + depth) = 0,
- * f: the loads, t: so that they would move bodies by a small part of a facet; g_i, G_i: a node's gap, and how motions open it. Found
- * by projected Gauss-Seidel. Then the contact is evaluated at the new place. Where bodies do not come to rest so, or the normals hold
- * them, the step starts from where they were, and closing.c closes the gaps. */
-#include "solve/held.h"
+ *   v = t f + sum_i (l_i G_i + q_i T_i),   l_i >= 0,   g_i + G_i v + depth >= 0,   l_i (g_i + G_i v + depth) = 0,
+ *   |q_i| <= m l_i,   and where T_i v is not 0, q_i is m l_i against it,
+ * f: the loads, t: so that they would move bodies by a small part of a facet; g_i, G_i, T_i: a node's gap, and how motions open it and slide
+ * along it; m: half of the friction (settle_gaps.c). Then the contact is evaluated at the new place. Where a load turns a lug about its pin
+ * or moves it along, the place of rest without friction is far away, or there is none; with all of the friction everything would slip
+ * there. Where bodies do not come to rest so, or the normals hold them, the step starts from where they were, and closing.c closes the
+ * gaps. Bodies move as a whole, and turn, whatever their material: laid.c. */
+#include "solve/settle.h"
 #include <cjson/cJSON.h>
 
-/* Moves at most; each is so much of the shortest of the interfaces' longest edges, at most; sweeps for one. */
-enum { MOVES = 100, SWEEPS = 400 };
+/* Moves at most; each is so much of the shortest of the interfaces' longest edges, at most. */
+enum { MOVES = 400 };
 static const PetscReal REACH = 0.02;
-/* Where moves go on and on in one direction, within this cosine, they become longer, up to this; and the loads' part in them, by as much. */
-static const PetscReal ALIKE = 0.9, FARTHEST = 0.2, EAGER = 32;
-/* At rest: a move is shorter than this part of what it would be if nothing stopped it: what is left, friction holds. What sweeps still
- * change, over the reach of a first move: what they leave is a turn, which takes what touches along the surface, and friction keeps it there. */
-static const PetscReal REST = 5e-2, SWEPT = 1e-9;
+/* Where moves go on and on in one direction, within this cosine, they become longer, up to this; and the loads' part in them, by as much.
+ * Where they turn back the loads' part becomes smaller, as small as HESITANT, and as large as it was only after so many moves in one
+ * direction: surfaces of facets are no planes, and long moves over them go to and fro. */
+enum { PATIENCE = 16 };
+static const PetscReal ALIKE = 0.9, FARTHEST = 0.2, EAGER = 32, HESITANT = 0.125;
+/* At rest: so many moves in a row are shorter than this part of what they would be if nothing stopped them: the rest of friction holds what
+ * is left. If none are, the last place will do where the last move is shorter than NEARLY of that. What sweeps still change, over the reach
+ * of a first move: what they leave is a turn, which takes what touches along the surface, and friction keeps it there. */
+enum { RESTS = 2 };
+static const PetscReal REST = 2.5e-2, NEARLY = 0.1, SWEPT = 1e-7;
 /* How deep touching nodes end, over the edge: about what the loads press them in by, within bounds. */
 static const PetscReal DEEPEST = 1e-2, SHALLOWEST = 1e-8;
-/* A node that opens by less than this part of a motion's size does not stop it. */
-static const PetscReal NOTHING = 1e-6;
-/* Normals hold a motion if the squares of what it opens touching nodes by sum up to more than this, a motion's size being 1. */
-static const PetscReal HOLDS = 1e-2;
 
-typedef struct {
-  Motions    m;
-  PetscInt   n;            /* motions that supports leave free, the first rows of m.gram */
-  PetscReal *load, *move, *before; /* n: the move that nothing stops; the next one, the last one */
-  PetscReal  edge, most, eager, depth; /* the shortest of the interfaces' longest edges; a move's length, at most; `load` over that; of
-                                          touching nodes */
-  PetscInt   n_gaps;
-  Gap       *gaps;         /* of all ranks */
-  PetscReal *open, *force; /* n_gaps x n: G; n_gaps: l */
-} Settle;
-
-static PetscReal dot(PetscInt n, const PetscReal a[], const PetscReal b[])
+/* Of a rigid body's first two vertices the second one has its turns, times a length: which body, or -1. */
+static PetscInt turned_by(const Physics *physics, PetscInt k)
 {
-  PetscReal sum = 0;
-  for (PetscInt k = 0; k < n; k++)
-    sum += a[k] * b[k];
-  return sum;
+  const PetscInt number = physics->mesh->original[k], r = rigids_of_vertex(physics, number);
+  return r >= 0 && number == physics->rigids[r].first_vertex + 1 ? r : -1;
 }
 
-/* Adds what the free motions move a point of a part by along d, times `sign`. */
-static void add_free_row(const Settle *s, PetscInt part, const PetscReal at[3], const PetscReal d[3], PetscReal sign, PetscReal row[])
+/* A part's share in motions that are given by their sizes: its translation, and its turn. */
+static void share(const Settle *s, const PetscReal sizes[], PetscInt part, PetscReal motion[MODES])
 {
-  PetscInt  columns[MODES];
-  PetscReal values[MODES];
-  int       n = 0;
-  motions_row(&s->m, part, at, d, sign, columns, values, &n);
-  for (PetscInt k = 0; k < s->n; k++) {
-    for (int j = 0; j < n; j++)
-      row[k] += values[j] * s->m.gram[s->m.n * k + columns[j]];
+  PetscCallAbort(PETSC_COMM_SELF, PetscArrayzero(motion, MODES));
+  for (PetscInt j = 0; j < s->n; j++) {
+    for (int i = 0; i < MODES; i++)
+      motion[i] += sizes[j] * s->m.gram[s->m.n * j + MODES * s->m.place[part] + i] / (i < 3 ? 1 : s->m.size[part]);
   }
 }
 
-/* What loads do to the free motions, or (`along` given) what these move every vertex by: both go over the vertices that are owned here. */
-static PetscErrorCode with_vertices(const Solve *solve, const Settle *s, const PetscReal *along, PetscScalar *array, PetscReal *loads)
+/* x -> R x + d, which turns about a place */
+static void rigid_motion(const PetscReal motion[MODES], const PetscReal middle[3], PetscReal rigid[LAID_NUMBERS])
+{
+  const PetscReal *w = motion + 3, angle = PetscSqrtReal(settle_dot(3, w, w));
+  const PetscReal  first = angle > 0 ? PetscSinReal(angle) / angle : 1, second = angle > 0 ? 2 * PetscSqr(PetscSinReal(angle / 2) / angle) : 0.5;
+  for (int i = 0; i < 3; i++) {
+    for (int j = 0; j < 3; j++) {
+      const int k = 3 - i - j;
+      rigid[3 * i + j] = i == j ? 1 + second * (w[i] * w[i] - angle * angle) : second * w[i] * w[j] + ((j - i + 3) % 3 == 1 ? -first : first) * w[k];
+    }
+  }
+  for (int i = 0; i < 3; i++)
+    rigid[9 + i] = motion[i] + middle[i] - settle_dot(3, rigid + 3 * i, middle);
+}
+
+/* What loads do to the free motions: over the vertices that are owned here. */
+static PetscErrorCode add_loads(const Solve *solve, const Settle *s, const PetscScalar *f, PetscReal *loads)
 {
   const Physics     *physics = solve->physics;
   const Mesh        *mesh    = solve->mesh;
   const PetscScalar *coordinates, *u;
-  PetscReal         *row;
   Vec                vector;
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(s->n, &row));
   PetscCall(DMGetCoordinatesLocal(mesh->dm, &vector));
   PetscCall(VecGetArrayRead(vector, &coordinates));
   PetscCall(VecGetArrayRead(physics->u_local, &u));
   for (PetscInt k = 0; k < mesh->n_points; k++) {
-    const PetscInt  number = mesh->original[k], r = rigids_of_vertex(physics, number), part = physics->parts.of_vertex[k];
-    const PetscBool finite = physics->materials[mesh_body_of(mesh, number)].law->finite;
-    const PetscBool turns = (PetscBool)(r >= 0 && number == physics->rigids[r].first_vertex + 1);
-    PetscReal       x[3];
-    PetscInt        at;
-    if (s->m.place[part] < 0 || (!along && physics->unknowns.ghost[k])) continue;
+    const PetscInt part = physics->parts.of_vertex[k], r = turned_by(physics, k);
+    PetscReal      x[3], force[MODES] = {0};
+    PetscInt       at;
+    if (s->m.place[part] < 0 || physics->unknowns.ghost[k]) continue;
     PetscCall(unknowns_place(physics, k, coordinates, x, &at));
-    for (int i = 0; i < 3 && finite && !turns; i++)
-      x[i] += PetscRealPart(u[at + i]);
     for (int i = 0; i < 3; i++) {
-      const PetscReal d[3] = {i == 0, i == 1, i == 2};
-      PetscCall(PetscArrayzero(row, s->n));
-      add_free_row(s, part, x, d, 1, row);
-      for (PetscInt j = 0; j < s->n && turns; j++) /* its unknowns are turns, times a length */
-        row[j] = physics->rigids[r].length * s->m.gram[s->m.n * j + MODES * s->m.place[part] + 3 + i] / s->m.size[part];
-      for (PetscInt j = 0; j < s->n; j++) {
-        if (along)
-          array[at + i] += along[j] * row[j];
-        else
-          loads[j] += PetscRealPart(array[at + i]) * row[j];
-      }
+      x[i] += PetscRealPart(u[at + i]) - s->m.middle[3 * part + i];
+      force[r < 0 ? i : 3 + i] = PetscRealPart(f[at + i]) * (r < 0 ? 1 : physics->rigids[r].length);
+    }
+    for (int i = 0; i < 3 && r < 0; i++)
+      force[3 + i] = x[(i + 1) % 3] * force[(i + 2) % 3] - x[(i + 2) % 3] * force[(i + 1) % 3];
+    for (PetscInt j = 0; j < s->n; j++) {
+      for (int i = 0; i < MODES; i++)
+        loads[j] += force[i] * s->m.gram[s->m.n * j + MODES * s->m.place[part] + i] / (i < 3 ? 1 : s->m.size[part]);
     }
   }
   PetscCall(VecRestoreArrayRead(physics->u_local, &u));
   PetscCall(VecRestoreArrayRead(vector, &coordinates));
-  PetscCall(PetscFree(row));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* All vertices here by the next move, without strain. */
+static PetscErrorCode move_vertices(const Solve *solve, Settle *s)
+{
+  const Physics     *physics = solve->physics;
+  const Mesh        *mesh    = solve->mesh;
+  const PetscScalar *coordinates;
+  PetscScalar       *u;
+  PetscReal         *motions, *rigid;
+  Vec                vector;
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(MODES * physics->parts.n, &motions, LAID_NUMBERS * physics->parts.n, &rigid));
+  for (PetscInt p = 0; p < physics->parts.n; p++) {
+    if (s->m.place[p] < 0) continue;
+    share(s, s->move, p, motions + MODES * p);
+    rigid_motion(motions + MODES * p, s->m.middle + 3 * p, rigid + LAID_NUMBERS * p);
+    laid_compose(s->laid + LAID_NUMBERS * p, rigid + LAID_NUMBERS * p, s->laid + LAID_NUMBERS * p);
+  }
+  PetscCall(DMGetCoordinatesLocal(mesh->dm, &vector));
+  PetscCall(VecGetArrayRead(vector, &coordinates));
+  PetscCall(VecGetArray(physics->u_local, &u));
+  for (PetscInt k = 0; k < mesh->n_points; k++) {
+    const PetscInt part = physics->parts.of_vertex[k], r = turned_by(physics, k);
+    PetscReal      x[3], now[3];
+    PetscInt       at;
+    if (s->m.place[part] < 0) continue;
+    PetscCall(unknowns_place(physics, k, coordinates, x, &at));
+    for (int i = 0; i < 3; i++)
+      now[i] = x[i] + PetscRealPart(u[at + i]);
+    for (int i = 0; i < 3; i++) {
+      const PetscReal *row = rigid + LAID_NUMBERS * part;
+      u[at + i]            = r < 0 ? row[9 + i] + settle_dot(3, row + 3 * i, now) - x[i] :
+                                     u[at + i] + physics->rigids[r].length * motions[MODES * part + 3 + i];
+    }
+  }
+  PetscCall(VecRestoreArray(physics->u_local, &u));
+  PetscCall(VecRestoreArrayRead(vector, &coordinates));
+  PetscCall(PetscFree2(motions, rigid));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* At u_local: how strong the loads are, and where they would move the bodies. */
 static PetscErrorCode find_load(Solve *solve, Settle *s, PetscReal *pressing)
 {
-  PetscScalar *f;
+  const PetscScalar *f;
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(s->load, s->n));
   PetscCall(unknowns_sum(solve->physics, solve->physics->f_external));
-  PetscCall(VecGetArray(solve->physics->f_sum, &f));
-  PetscCall(with_vertices(solve, s, NULL, f, s->load));
-  PetscCall(VecRestoreArray(solve->physics->f_sum, &f));
+  PetscCall(VecGetArrayRead(solve->physics->f_sum, &f));
+  PetscCall(add_loads(solve, s, f, s->load));
+  PetscCall(VecRestoreArrayRead(solve->physics->f_sum, &f));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, s->load, (PetscMPIInt)s->n, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
-  *pressing = PetscSqrtReal(dot(s->n, s->load, s->load));
+  *pressing = PetscSqrtReal(settle_dot(s->n, s->load, s->load));
   for (PetscInt k = 0; k < s->n && *pressing > 0; k++)
     s->load[k] *= s->eager * REACH * s->edge / *pressing;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -142,10 +176,12 @@ static PetscErrorCode begin(Solve *solve, Settle *s, PetscBool *possible)
   PetscCall(motions_sum(&s->m));
   motions_add_rings(physics, &s->m);
   PetscCall(motions_find_free(&s->m, &s->n)); /* the same on every rank */
-  PetscCall(PetscCalloc3(s->n, &s->load, s->n, &s->move, s->n, &s->before));
+  PetscCall(PetscCalloc4(s->n, &s->load, s->n, &s->move, s->n, &s->before, LAID_NUMBERS * physics->parts.n, &s->laid));
+  for (PetscInt k = 0; k < LAID_NUMBERS * physics->parts.n; k++)
+    s->laid[k] = k % LAID_NUMBERS < 9 && k % LAID_NUMBERS % 4 == 0;
   *possible = (PetscBool)(s->n > 0 && edge < PETSC_MAX_REAL);
   if (!*possible) PetscFunctionReturn(PETSC_SUCCESS);
-  s->edge = edge, s->eager = 1, s->most = REACH * edge;
+  s->edge = edge, s->eager = 1, s->limit = EAGER, s->most = REACH * edge;
   PetscCall(find_load(solve, s, &pressing));
   *possible = (PetscBool)(pressing > 0);
   s->depth = young < PETSC_MAX_REAL ? pressing / (young * edge) : 0;
@@ -153,113 +189,46 @@ static PetscErrorCode begin(Solve *solve, Settle *s, PetscBool *possible)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode forget_gaps(Settle *s)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFree(s->gaps));
-  PetscCall(PetscFree2(s->open, s->force));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode end(Settle *s)
 {
   PetscFunctionBegin;
-  PetscCall(forget_gaps(s));
-  PetscCall(PetscFree3(s->load, s->move, s->before));
+  PetscCall(settle_forget_gaps(s));
+  PetscCall(PetscFree4(s->load, s->move, s->before, s->laid));
   PetscCall(motions_destroy(&s->m));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Of all ranks, at the place of the last evaluation. */
-static PetscErrorCode find_gaps(Solve *solve, Settle *s)
-{
-  const PetscMPIInt size = solve->mesh->size;
-  PetscInt          n    = 0, all = 0;
-  PetscMPIInt      *counts, *starts, bytes;
-  Gap              *mine;
-  PetscFunctionBegin;
-  PetscCall(forget_gaps(s));
-  for (PetscInt i = 0; i < solve->contact->n_interfaces; i++)
-    all += solve->contact->interfaces[i].part.n1;
-  PetscCall(PetscMalloc1(all, &mine));
-  for (PetscInt i = 0; i < solve->contact->n_interfaces; i++)
-    PetscCall(held_gaps(solve, &solve->contact->interfaces[i], mine, &n));
-  PetscCall(PetscMalloc2(size, &counts, size + 1, &starts));
-  bytes = (PetscMPIInt)(n * (PetscInt)sizeof(Gap));
-  PetscCallMPI(MPI_Allgather(&bytes, 1, MPI_INT, counts, 1, MPI_INT, PETSC_COMM_WORLD));
-  starts[0] = 0;
-  for (PetscMPIInt r = 0; r < size; r++)
-    starts[r + 1] = starts[r] + counts[r];
-  s->n_gaps = starts[size] / (PetscInt)sizeof(Gap);
-  PetscCall(PetscMalloc1(s->n_gaps, &s->gaps));
-  PetscCallMPI(MPI_Allgatherv(mine, bytes, MPI_BYTE, s->gaps, counts, starts, MPI_BYTE, PETSC_COMM_WORLD));
-  PetscCall(PetscCalloc2(s->n_gaps * s->n, &s->open, s->n_gaps, &s->force));
-  for (PetscInt g = 0; g < s->n_gaps; g++) {
-    for (int side = 0; side < 2; side++)
-      add_free_row(s, s->gaps[g].part[side], s->gaps[g].at[side], s->gaps[g].normal, side ? -1 : 1, s->open + g * s->n);
-  }
-  PetscCall(PetscFree2(counts, starts));
-  PetscCall(PetscFree(mine));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The next move, from the gaps of now. */
-static void find_move(Settle *s)
-{
-  PetscReal change = PETSC_MAX_REAL;
-  for (PetscInt k = 0; k < s->n; k++)
-    s->move[k] = s->load[k];
-  for (int sweep = 0; sweep < SWEEPS && change > SWEPT * REACH * s->edge; sweep++) {
-    change = 0;
-    for (PetscInt g = 0; g < s->n_gaps; g++) {
-      const PetscReal *open = s->open + g * s->n, stiff = dot(s->n, open, open);
-      PetscReal        force;
-      if (!(stiff > NOTHING * NOTHING)) continue;
-      force = PetscMax(0, s->force[g] - (s->gaps[g].gap + s->depth + dot(s->n, open, s->move)) / stiff);
-      for (PetscInt k = 0; k < s->n; k++)
-        s->move[k] += (force - s->force[g]) * open[k];
-      change      = PetscMax(change, PetscAbsReal(force - s->force[g]) * PetscSqrtReal(stiff));
-      s->force[g] = force;
-    }
-  }
-}
-
-/* Does it go on in one direction? */
+/* Does it go on in one direction? What turned it back is not tried again for a while. */
 static void look_at_way(Settle *s)
 {
-  const PetscReal now = dot(s->n, s->move, s->move), before = dot(s->n, s->before, s->before);
-  if (dot(s->n, s->move, s->before) > ALIKE * PetscSqrtReal(now * before) && before > 0) {
+  const PetscReal now = settle_dot(s->n, s->move, s->move), before = settle_dot(s->n, s->before, s->before);
+  if (settle_dot(s->n, s->move, s->before) > ALIKE * PetscSqrtReal(now * before) && before > 0) {
+    if (++s->n_alike % PATIENCE == 0) s->limit = PetscMin(EAGER, 2 * s->limit);
     if (now > s->most * s->most)
       s->most = PetscMin(FARTHEST * s->edge, 2 * s->most);
     else
-      s->eager = PetscMin(EAGER, 2 * s->eager);
+      s->eager = PetscMin(s->limit, 2 * s->eager);
   } else {
-    s->most  = PetscMax(REACH * s->edge, s->most / 2);
-    s->eager = PetscMax(1, s->eager / 2);
+    s->n_alike = 0;
+    s->limit   = PetscMax(1, s->eager / 2);
+    s->most    = PetscMax(REACH * s->edge, s->most / 2);
+    s->eager   = PetscMax(HESITANT, s->eager / 2);
   }
 }
 
 /* u_local and x by the move, or by as much of it as counts; its length */
 static PetscErrorCode make_move(Solve *solve, Settle *s, Vec x, PetscReal *length)
 {
-  PetscScalar *array;
-  Vec          step;
   PetscFunctionBegin;
   look_at_way(s);
-  *length = PetscSqrtReal(dot(s->n, s->move, s->move));
+  *length = PetscSqrtReal(settle_dot(s->n, s->move, s->move));
   for (PetscInt k = 0; k < s->n; k++) {
     s->before[k] = s->move[k];
     s->move[k] *= PetscMin(1, s->most / *length);
   }
-  PetscCall(VecDuplicate(solve->physics->u_local, &step));
-  PetscCall(VecZeroEntries(step));
-  PetscCall(VecGetArray(step, &array));
-  PetscCall(with_vertices(solve, s, s->move, array, NULL));
-  PetscCall(VecRestoreArray(step, &array));
-  PetscCall(VecAXPY(solve->physics->u_local, 1, step));
+  PetscCall(move_vertices(solve, s));
   PetscCall(DMLocalToGlobalBegin(solve->mesh->dm, solve->physics->u_local, INSERT_VALUES, x));
   PetscCall(DMLocalToGlobalEnd(solve->mesh->dm, solve->physics->u_local, INSERT_VALUES, x));
-  PetscCall(VecDestroy(&step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -270,26 +239,6 @@ static PetscErrorCode evaluate(Solve *solve, Vec x, PetscInt *refused)
   PetscCall(VecZeroEntries(solve->physics->f_local));
   PetscCall(contact_forces(solve->contact, solve->physics->f_local, refused));
   solve->contact->refusal[0] = 0;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Do the normals of the nodes that stop the last move leave a motion to friction? */
-static PetscErrorCode wants_friction(const Settle *s, PetscBool *wants)
-{
-  PetscReal *gram, *values;
-  PetscBool  friction = PETSC_FALSE;
-  PetscFunctionBegin;
-  PetscCall(PetscCalloc2(s->n * s->n, &gram, s->n, &values));
-  for (PetscInt g = 0; g < s->n_gaps; g++) {
-    const PetscReal *open = s->open + g * s->n;
-    if (!(s->force[g] > 0)) continue;
-    friction = (PetscBool)(friction || s->gaps[g].friction > 0);
-    for (PetscInt k = 0; k < s->n * s->n; k++)
-      gram[k] += open[k / s->n] * open[k % s->n];
-  }
-  PetscCall(motions_eigen(s->n, gram, values));
-  *wants = (PetscBool)(friction && values[0] < HOLDS);
-  PetscCall(PetscFree2(gram, values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -343,25 +292,25 @@ static PetscErrorCode tell(Solve *solve, PetscReal t0, PetscReal moved)
 static PetscErrorCode lay(Solve *solve, PetscReal t0, Vec last, PetscBool *laid)
 {
   Settle    s;
-  PetscInt  refused = 0;
-  PetscReal length;
-  PetscReal pressing;
-  PetscBool possible = PETSC_FALSE, rests = PETSC_FALSE;
+  PetscInt  refused = 0, n_rest = 0;
+  PetscReal length = 0, bound = 0, pressing;
+  PetscBool possible = PETSC_FALSE;
   Vec       x;
   PetscFunctionBegin;
   PetscCall(VecDuplicate(last, &x));
   PetscCall(VecCopy(last, x));
   PetscCall(evaluate(solve, x, &refused));
   PetscCall(begin(solve, &s, &possible));
-  for (int k = 0; k < MOVES && possible && !rests && !refused; k++) {
+  for (int k = 0; k < MOVES && possible && n_rest < RESTS && !refused; k++) {
     PetscCall(find_load(solve, &s, &pressing));
-    PetscCall(find_gaps(solve, &s));
-    find_move(&s);
+    PetscCall(settle_find_gaps(solve, &s));
+    settle_find_move(&s, SWEPT * REACH * s.edge);
     PetscCall(make_move(solve, &s, x, &length));
-    rests = (PetscBool)(length <= REST * PetscSqrtReal(dot(s.n, s.load, s.load)));
+    bound  = PetscSqrtReal(settle_dot(s.n, s.load, s.load));
+    n_rest = length <= REST * bound ? n_rest + 1 : 0;
     PetscCall(evaluate(solve, x, &refused));
   }
-  if (possible && !refused && rests) PetscCall(wants_friction(&s, laid));
+  if (possible && !refused && length <= NEARLY * bound) PetscCall(settle_wants_friction(&s, laid));
   if (*laid) {
     const PetscReal t = solve->physics->t;
     solve->physics->t = t0;
@@ -375,6 +324,9 @@ static PetscErrorCode lay(Solve *solve, PetscReal t0, Vec last, PetscBool *laid)
     PetscCall(VecAXPY(last, -1, x));
     PetscCall(VecNorm(last, NORM_INFINITY, &moved));
     PetscCall(VecCopy(x, last));
+    for (PetscInt p = 0; p < solve->physics->parts.n; p++) {
+      if (s.m.place[p] >= 0) PetscCall(laid_move(solve->physics, p, s.laid + LAID_NUMBERS * p));
+    }
     PetscCall(tell(solve, t0, moved));
   }
   PetscCall(end(&s));
