@@ -26,6 +26,7 @@ from hosts import hosts  # noqa: E402
 from iterative import iterative, iterative_scenes  # noqa: E402
 from ironing import ironing, ironing_full  # noqa: E402
 from material_checks import materials  # noqa: E402
+from laid import laid  # noqa: E402
 from laws import laws  # noqa: E402
 from loads import loads  # noqa: E402
 from multigrid import multigrid  # noqa: E402
@@ -91,6 +92,7 @@ GROUPS = {
     "dynamics": dynamics,
     "dynamics_finite": finite,
     "dynamics_mass": mass,
+    "laid": laid,
     "laws": laws,
     "loads": loads,
     "materials": materials,
