@@ -369,6 +369,8 @@ int32_t   layer_set(const Interface *interface, stickslip_interface *handle);
 /* decision.c; `settle` when bodies are known */
 void           decision_read(Scene *scene, Interface *interface);
 PetscBool      decision_is_points(const Interface *interface);
+PetscErrorCode decision_hold(Scene *scene, const Contact *contact, Interface *interface);
+PetscErrorCode contact_has_middles(const Mesh *mesh, const Interface *interface, PetscBool *any); /* contact_setup.c */
 PetscErrorCode decision_settle(const Contact *contact, Interface *interface);
 /* store.c: on every rank; at the place of the last evaluation, converged */
 PetscErrorCode contact_store(const Contact *contact, PetscReal *store);

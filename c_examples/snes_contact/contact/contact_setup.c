@@ -51,7 +51,7 @@ static PetscErrorCode create_homes(Contact *contact, Interface *interface)
 }
 
 /* Facets with nodes in the middle of their edges, on either side: their condensation wants all of them in one handle. */
-static PetscErrorCode has_middles(const Mesh *mesh, const Interface *interface, PetscBool *any)
+PetscErrorCode contact_has_middles(const Mesh *mesh, const Interface *interface, PetscBool *any)
 {
   PetscFunctionBegin;
   *any = PETSC_FALSE;
@@ -95,7 +95,7 @@ static PetscErrorCode look_at_surfaces(const Mesh *mesh, Interface *interface)
   const stickslip_method  *method  = &interface->method;
   PetscFunctionBegin;
   PetscCall(longest_edge(interface, &interface->longest_edge));
-  PetscCall(has_middles(mesh, interface, &interface->middles));
+  PetscCall(contact_has_middles(mesh, interface, &interface->middles));
   interface->uncut  = (PetscBool)(interface->dimension == 2 || interface->skin || interface->surface[1]->analytic || interface->middles);
   interface->frozen = (PetscBool)(method->weights == STICKSLIP_WEIGHTS_REFERENCE || options->friction == STICKSLIP_FRICTION_TIED);
   PetscFunctionReturn(PETSC_SUCCESS);
