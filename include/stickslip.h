@@ -315,7 +315,7 @@
 /// all while the surfaces are apart: no law, row -lambda / r; the former's tangent block is its diagonal.
 #define STICKSLIP_SHORTCUT_UNCOVERED 8
 
-/// Dual, but with STICKSLIP_SPACE_SUB or STICKSLIP_WEIGHTS_CONSERVING standard. Default.
+/// Dual, but with STICKSLIP_SPACE_SUB where nodes decide, or STICKSLIP_WEIGHTS_CONSERVING, standard. Default.
 #define STICKSLIP_BASIS_AUTO 0
 
 /// Standard shape functions for the multiplier (the paper's): tractions oscillate beside edges and on curved surfaces.
@@ -328,8 +328,8 @@
 /// STICKSLIP_INTEGRATION_ELEMENTS a facet whose covered points do not determine its multipliers is refused
 /// (DEGENERATE_FACET); STICKSLIP_INTEGRATION_HYBRID takes overlaps there from the next commit on. The stages
 /// have calls of their own for it.
-/// Not with (UNSUPPORTED): multipliers at all nodes of quadratic facets or lines (STICKSLIP_SPACE_SUB); sums of several
-/// handles.
+/// Not with (UNSUPPORTED): multipliers at all nodes of quadratic facets or lines (STICKSLIP_SPACE_SUB) and nodes that decide
+/// (STICKSLIP_DECISION_NODES); sums of several handles.
 #define STICKSLIP_BASIS_DUAL 2
 
 /// weak_coverage: every covered node has a multiplier of its own.
@@ -392,10 +392,11 @@
 /// friction and the paper's slip measure (STICKSLIP_SLIP_PAPER); standard multipliers (STICKSLIP_BASIS_STANDARD); the
 /// augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (method.element_points); nodes that others
 /// carry (weak_coverage > 0, the default of dual multipliers); conserving weights (STICKSLIP_WEIGHTS_CONSERVING); an
-/// analytic mortar side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid nodes; a law of one's own; a layer
-/// between the surfaces (stickslip_interface_set_layer); parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE); nodes
-/// that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes (stickslip_interface_set_committed) and
-/// friction; condensation; heat; derivatives by positions of t_n and by parameters.
+/// analytic mortar side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid nodes and weights of now
+/// (STICKSLIP_WEIGHTS_CURRENT); a law of one's own; wear or a bond (stickslip_layer); parts of an interface (owned has
+/// STICKSLIP_NODE_ELSEWHERE); nodes that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes
+/// (stickslip_interface_set_committed) and friction; condensation; derivatives of heat by displacements and multipliers;
+/// derivatives by positions of t_n and by parameters.
 #define STICKSLIP_DECISION_POINTS 1
 
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
@@ -584,7 +585,7 @@
 #define STICKSLIP_SPACE_CORNER 0
 
 /// Multipliers at all nodes, with the functions of the linear parts that the facet is cut into.
-/// Not with (UNSUPPORTED): dual multipliers (STICKSLIP_BASIS_DUAL).
+/// Not with (UNSUPPORTED): dual multipliers (STICKSLIP_BASIS_DUAL) and nodes that decide (STICKSLIP_DECISION_NODES).
 #define STICKSLIP_SPACE_SUB 1
 
 /// Facets of a solid: positions have three components.
@@ -2931,8 +2932,8 @@ int32_t stickslip_interface_set_law_states(struct stickslip_interface *interface
 /// import. Its numbers may change from step to step; where wear or a bond comes or goes its states begin at 0, and no commit before it can be
 /// undone. Offsets, which are the host's, are there beside it.
 ///
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); tied surfaces (STICKSLIP_FRICTION_TIED);
-/// conserving weights (STICKSLIP_WEIGHTS_CONSERVING); derivatives by positions of t_n and by parameters.
+/// Not with (UNSUPPORTED): tied surfaces (STICKSLIP_FRICTION_TIED); conserving weights (STICKSLIP_WEIGHTS_CONSERVING);
+/// derivatives by positions of t_n and by parameters.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INVALID_VALUE (a number; wear or a bond without friction, which have no
 /// slip), UNSUPPORTED (see above), and those of a search, where pairs must be sought farther or deeper.
@@ -2951,10 +2952,8 @@ int32_t stickslip_interface_set_layer(struct stickslip_interface *interface,
 /// to the caller's arrays. Of a part of an interface (`owned`) they are what its own nodes give, to be added up like forces. In
 /// plane models they are of the thickness, in axisymmetric ones of the whole ring.
 ///
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS).
-///
 /// Errors: as `stickslip_interface_residual` without sums; INVALID_VALUE (a member of heat), NOT_FINITE (temperatures; a result that
-/// overflows), UNSUPPORTED.
+/// overflows).
 /// Cost: after a residual at the same point O(pairs); where surfaces are apart an integration. Allocates.
 int32_t stickslip_interface_heat(struct stickslip_interface *interface,
                                  const double *x1,
@@ -2974,9 +2973,13 @@ int32_t stickslip_interface_heat(struct stickslip_interface *interface,
 ///
 /// x1, x2, lambda, heat, temperatures1, temperatures2: as for `stickslip_interface_heat`. equations1 (n1), equations2 (n2): of the temperatures, one a node, in
 /// the index base; -1: prescribed. which: STICKSLIP_HEAT_TEMPERATURES, or STICKSLIP_HEAT_ALL: with columns of the displacements and
-/// multipliers that the interface was created with, which conserving weights do not have. Outputs: rows, columns, values (capacity each), count. With all three arrays
+/// multipliers that the interface was created with. Outputs: rows, columns, values (capacity each), count. With all three arrays
 /// NULL only count is written, and capacity is not read. Entries of [F L/(T K)], [F/T], [L^3/T]. After NOT_FINITE because a value
 /// overflows, values mean nothing.
+///
+/// STICKSLIP_HEAT_ALL:
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); conserving weights
+/// (STICKSLIP_WEIGHTS_CONSERVING).
 ///
 /// Errors: those of `stickslip_interface_heat`, INDEX_OUT_OF_RANGE (an equation below the base), INVALID_VALUE (which), BUFFER_TOO_SMALL,
 /// UNSUPPORTED.

@@ -111,10 +111,8 @@ fn read_heat(p: *const stickslip_heat) -> Result<Conductance> {
 /// to the caller's arrays. Of a part of an interface (`owned`) they are what its own nodes give, to be added up like forces. In
 /// plane models they are of the thickness, in axisymmetric ones of the whole ring.
 ///
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS).
-///
 /// Errors: as `stickslip_interface_residual` without sums; INVALID_VALUE (a member of heat), NOT_FINITE (temperatures; a result that
-/// overflows), UNSUPPORTED.
+/// overflows).
 /// Cost: after a residual at the same point O(pairs); where surfaces are apart an integration. Allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_heat(
@@ -186,9 +184,13 @@ fn read_temperatures<'a>(
 ///
 /// x1, x2, lambda, heat, temperatures1, temperatures2: as for `stickslip_interface_heat`. equations1 (n1), equations2 (n2): of the temperatures, one a node, in
 /// the index base; -1: prescribed. which: STICKSLIP_HEAT_TEMPERATURES, or STICKSLIP_HEAT_ALL: with columns of the displacements and
-/// multipliers that the interface was created with, which conserving weights do not have. Outputs: rows, columns, values (capacity each), count. With all three arrays
+/// multipliers that the interface was created with. Outputs: rows, columns, values (capacity each), count. With all three arrays
 /// NULL only count is written, and capacity is not read. Entries of [F L/(T K)], [F/T], [L^3/T]. After NOT_FINITE because a value
 /// overflows, values mean nothing.
+///
+/// STICKSLIP_HEAT_ALL:
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); conserving weights
+/// (STICKSLIP_WEIGHTS_CONSERVING).
 ///
 /// Errors: those of `stickslip_interface_heat`, INDEX_OUT_OF_RANGE (an equation below the base), INVALID_VALUE (which), BUFFER_TOO_SMALL,
 /// UNSUPPORTED.

@@ -89,8 +89,8 @@ fn read_layer(layer: *const stickslip_layer) -> Result<Option<Layer>> {
 /// import. Its numbers may change from step to step; where wear or a bond comes or goes its states begin at 0, and no commit before it can be
 /// undone. Offsets, which are the host's, are there beside it.
 ///
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); tied surfaces (STICKSLIP_FRICTION_TIED);
-/// conserving weights (STICKSLIP_WEIGHTS_CONSERVING); derivatives by positions of t_n and by parameters.
+/// Not with (UNSUPPORTED): tied surfaces (STICKSLIP_FRICTION_TIED); conserving weights (STICKSLIP_WEIGHTS_CONSERVING);
+/// derivatives by positions of t_n and by parameters.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INVALID_VALUE (a number; wear or a bond without friction, which have no
 /// slip), UNSUPPORTED (see above), and those of a search, where pairs must be sought farther or deeper.

@@ -68,7 +68,7 @@ pub const STICKSLIP_SHORTCUT_APART: i32 = 4;
 /// Nodes that nothing can cover before the next commit (no mortar facet passes the filters with a facet around them), and
 /// all while the surfaces are apart: no law, row -lambda / r; the former's tangent block is its diagonal.
 pub const STICKSLIP_SHORTCUT_UNCOVERED: i32 = 8;
-/// Dual, but with STICKSLIP_SPACE_SUB or STICKSLIP_WEIGHTS_CONSERVING standard. Default.
+/// Dual, but with STICKSLIP_SPACE_SUB where nodes decide, or STICKSLIP_WEIGHTS_CONSERVING, standard. Default.
 pub const STICKSLIP_BASIS_AUTO: i32 = 0;
 /// Standard shape functions for the multiplier (the paper's): tractions oscillate beside edges and on curved surfaces.
 /// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); condensation.
@@ -79,8 +79,8 @@ pub const STICKSLIP_BASIS_STANDARD: i32 = 1;
 /// STICKSLIP_INTEGRATION_ELEMENTS a facet whose covered points do not determine its multipliers is refused
 /// (DEGENERATE_FACET); STICKSLIP_INTEGRATION_HYBRID takes overlaps there from the next commit on. The stages
 /// have calls of their own for it.
-/// Not with (UNSUPPORTED): multipliers at all nodes of quadratic facets or lines (STICKSLIP_SPACE_SUB); sums of several
-/// handles.
+/// Not with (UNSUPPORTED): multipliers at all nodes of quadratic facets or lines (STICKSLIP_SPACE_SUB) and nodes that decide
+/// (STICKSLIP_DECISION_NODES); sums of several handles.
 pub const STICKSLIP_BASIS_DUAL: i32 = 2;
 /// weak_coverage: every covered node has a multiplier of its own.
 pub const STICKSLIP_WEAK_COVERAGE_NONE: f64 = -1.0;
@@ -128,10 +128,11 @@ pub const STICKSLIP_DECISION_NODES: i32 = 0;
 /// friction and the paper's slip measure (STICKSLIP_SLIP_PAPER); standard multipliers (STICKSLIP_BASIS_STANDARD); the
 /// augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (method.element_points); nodes that others
 /// carry (weak_coverage > 0, the default of dual multipliers); conserving weights (STICKSLIP_WEIGHTS_CONSERVING); an
-/// analytic mortar side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid nodes; a law of one's own; a layer
-/// between the surfaces (stickslip_interface_set_layer); parts of an interface (owned has STICKSLIP_NODE_ELSEWHERE); nodes
-/// that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes (stickslip_interface_set_committed) and
-/// friction; condensation; heat; derivatives by positions of t_n and by parameters.
+/// analytic mortar side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid nodes and weights of now
+/// (STICKSLIP_WEIGHTS_CURRENT); a law of one's own; wear or a bond (stickslip_layer); parts of an interface (owned has
+/// STICKSLIP_NODE_ELSEWHERE); nodes that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes
+/// (stickslip_interface_set_committed) and friction; condensation; derivatives of heat by displacements and multipliers;
+/// derivatives by positions of t_n and by parameters.
 pub const STICKSLIP_DECISION_POINTS: i32 = 1;
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
 pub const STICKSLIP_ROW_SCALE_FORCE: i32 = 0;

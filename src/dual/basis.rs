@@ -29,6 +29,7 @@ impl DualBasis {
     ///
     /// # Errors
     /// [`crate::error::Kind::DegenerateFacet`] when what covers the facet does not determine its multipliers.
+    #[inline(never)] // it is met several times
     pub fn of(sums: &FacetSums) -> Result<Option<DualBasis>> {
         let coverage = sums.coverage();
         if !(coverage.fade > 0.0) {
@@ -53,6 +54,7 @@ impl DualBasis {
     }
 
     /// m^-1 v.
+    #[inline(never)] // it is large, and met many times
     pub(super) fn solve(&self, v: &[f64; MAX_CORNERS]) -> [f64; MAX_CORNERS] {
         self.mass.solve(v)
     }

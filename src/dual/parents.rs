@@ -7,6 +7,7 @@ use super::sums::FacetSums;
 use crate::error::Result;
 use crate::mortar::ParentWeights;
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES, Parent};
+use crate::simd::rolled;
 
 /// c_Bk: 1 at the own corner, 1/2 at the mid nodes beside it, 1/4 at the centre.
 pub fn corner_shares(parent: &Parent) -> [[f64; MAX_PARENT_NODES]; MAX_CORNERS] {
@@ -23,10 +24,10 @@ impl DualBasis {
     ///
     /// # Errors
     /// As [`DualBasis::of`].
-    pub fn of_parent<'a>(
+    pub fn of_parent(
         parent: &Parent,
         area: f64,
-        pairs: impl Iterator<Item = &'a ParentWeights>,
+        pairs: &mut dyn Iterator<Item = &ParentWeights>,
     ) -> Result<Option<DualBasis>> {
         let (nodes, c) = (parent.corners(), corner_shares(parent));
         let (gamma, by_points) = ([0.0; MAX_CORNERS], false);
@@ -40,14 +41,13 @@ impl DualBasis {
     }
 
     /// A pair's share of the dual weights, as [`DualBasis::weights`].
+    #[inline(never)] // it is met several times
     pub fn parent_weights(&self, pair: &ParentWeights) -> ParentWeights {
         let mut dual = ParentWeights::default();
-        for k in 0..MAX_PARENT_NODES {
-            let column =
-                |n: &[[f64; MAX_PARENT_NODES]; MAX_PARENT_NODES]| self.dual(&[n[0][k], n[1][k], n[2][k], n[3][k]]);
-            let (ab, ac) = (column(&pair.ab), column(&pair.ac));
-            for a in 0..self.nodes {
-                (dual.ab[a][k], dual.ac[a][k]) = (ab[a], ac[a]);
+        for (n, to) in [(&pair.ab, &mut dual.ab), (&pair.ac, &mut dual.ac)] {
+            for k in 0..rolled(MAX_PARENT_NODES) {
+                let column = self.dual(&[n[0][k], n[1][k], n[2][k], n[3][k]]);
+                (0..self.nodes).for_each(|a| to[a][k] = column[a]);
             }
         }
         dual

@@ -1,5 +1,6 @@
 //! Heat through the handle (docs/formulation 17).
 
+use super::cache::Answers;
 use super::compose::Feature;
 use super::contact::Contact;
 use super::data::extent::Extent;
@@ -12,7 +13,7 @@ use super::tangent::by_equations::Sink;
 use super::tangent::turning::{NodeTurn, Turns};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
-use crate::law::{Conductance, HeatFlow, HeatNode, NodeResponse};
+use crate::law::{Conductance, HeatFlow, HeatNode};
 use nalgebra::SVector;
 
 /// Heat of an interface.
@@ -37,7 +38,7 @@ impl<const N: usize> Contact<N> {
     /// What leaves the nodes at (x, lambda) and these temperatures.
     ///
     /// # Errors
-    /// Those of a residual; [`Kind::Unsupported`]: points decide what is closed.
+    /// Those of a residual.
     pub fn heat(&mut self, x: [&[Vec3]; 2], lambda: &[SVector<f64, N>], t: Temperatures) -> Result<Heat> {
         let rows = self.heat_rows(x, lambda, t, false)?;
         let at = self.heat_place(x, t);
@@ -76,7 +77,7 @@ impl<const N: usize> Contact<N> {
         t: Temperatures,
         with_motion: bool,
     ) -> Result<Vec<Row>> {
-        self.setup.refuse(&[(Feature::Heat, true), (Feature::HeatMotion, with_motion)])?;
+        self.setup.refuse(&[(Feature::HeatMotion, with_motion)])?;
         let (one, two) = self.setup.surfaces();
         for (name, values, needed) in
             [("temperatures1", t.sides[0], one.len()), ("temperatures2", t.sides[1], two.len())]
@@ -99,10 +100,10 @@ impl<const N: usize> Contact<N> {
     }
 
     fn heat_place<'a>(&'a self, x: [&'a [Vec3]; 2], t: Temperatures<'a>) -> Place<'a, N> {
-        let responses: &[NodeResponse<N>] = &self.cache.answers().responses.nodes;
+        let Answers { responses, sums, .. } = self.cache.answers();
         let given = Given { setup: &self.setup, step: &self.step };
-        let sums = &self.cache.answers().sums;
-        Place { given, x, temperatures: t.sides, responses, sums, conductance: t.conductance }
+        let work = self.setup.has_point_friction().then_some(&responses.points.friction.dissipation[..]);
+        Place { given, x, temperatures: t.sides, responses: &responses.nodes, work, sums, conductance: t.conductance }
     }
 
     /// How the answers turn with normals of now.

@@ -217,6 +217,11 @@ struct Slopes<const R: usize, const N: usize> {
 }
 
 impl LayerAnswer {
+    /// d, dd / d lambda_N at fixed slip, and what is left of the augmentation.
+    pub fn yields(&self) -> [f64; 3] {
+        [self.depth, -self.by_pressure, self.share]
+    }
+
     /// The node as the law sees it.
     pub fn inner<const N: usize>(&self, node: &Node<N>) -> Node<N> {
         Node {

@@ -2,12 +2,13 @@
 //! (`mortar/closed.rs`), and of a region of its own (`mortar/closed_part.rs`), which is an interval.
 
 use super::derivatives::LineDerivatives;
-use super::facet::LineFacet;
+use super::facet::{LineFacet, MAX_LINE_NODES};
 use super::linear::{self, Linear};
 use super::segment::{LineSegment, Measure};
 use super::weights::{LineWeights, PartPair};
 use crate::error::Result;
-use crate::mortar::{MultiplierSpace, OverlapPoint};
+use crate::mortar::{MultiplierSpace, OverlapPoint, PartPoint};
+use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
 use crate::simd;
 
 impl LineWeights {
@@ -54,6 +55,27 @@ fn closed_part(one: &LineFacet, two: &LineFacet, field: [f64; 2]) -> Option<Line
         end.0 = from + (to - from) * (at[0] / (at[0] - at[1]));
     }
     (at[0] < 0.0 || at[1] < 0.0).then_some(segment)
+}
+
+/// Shows `to` the points of part `i` of the first line and part `j` of the second one.
+pub fn each_part_point(
+    facets: [&LineFacet; 2],
+    parts: (usize, usize),
+    (space, measure): (MultiplierSpace, Measure),
+    to: &mut dyn FnMut(&PartPoint) -> Result<()>,
+) -> Result<()> {
+    let (Some(pair), mut done) = (PartPair::of(facets, parts, space), Ok(())) else { return Ok(()) };
+    let rows = if space == MultiplierSpace::Corner { [0, 1] } else { pair.nodes[0] };
+    pair.for_points(|p| {
+        let (mut own, mut all) = ([0.0; MAX_CORNERS], [[0.0; MAX_PARENT_NODES]; 2]);
+        rows.into_iter().enumerate().for_each(|(k, row)| own[k] = p.test[row]);
+        all.iter_mut().zip(&p.n).for_each(|(all, n)| all[..MAX_LINE_NODES].copy_from_slice(n));
+        let weight = p.ds * measure.at(p.shares[0], pair.segment.r);
+        if done.is_ok() {
+            done = to(&PartPoint { weight, own, all });
+        }
+    });
+    done
 }
 
 /// Shows `to` the points of two lines with two nodes, those that their weights are sums over.

@@ -9,7 +9,7 @@ mod motion;
 mod segment;
 mod weights;
 
-pub use closed::each_point;
+pub use closed::{each_part_point, each_point};
 pub use derivatives::LineDerivatives;
 pub use facet::{LineFacet, MAX_LINE_NODES};
 pub use motion::line_motion;

@@ -12,6 +12,7 @@ use crate::simd::Lanes;
 impl PairWeights {
     /// Those of the points of a segment where the field with these values at the non-mortar nodes is negative. Not of points that
     /// stand for an overlap. For the few facets that a border cuts: compiled once, for any processor.
+    #[inline(never)]
     pub fn closed(frame: &NonmortarFrame, segment: &Segment, rule: &Rule, field: &[f64; MAX_CORNERS]) -> PairWeights {
         Kinds::of(frame, segment).plain(Closed { frame, segment, rule, field })
     }

@@ -1,11 +1,15 @@
 //! The points of an overlap one by one: those that its weights are sums over (`weights.rs`), to rounding.
 
+use super::field::MultiplierSpace;
 use super::pair_weights::PairWeights;
 use super::points::{Fan, Maps, points, triangle_lanes};
 use super::segment::{KindKernel, Kinds, NonmortarFrame, Segment};
+use super::sub_pair::Side;
 use crate::error::Result;
+use crate::geometry::bilinear_map::Preimage;
+use crate::geometry::{Projection, cross};
 use crate::quadrature::Rule;
-use crate::shape::{Basis, Cell, Isoparametric, MAX_CORNERS, SingleBasis};
+use crate::shape::{Basis, Cell, Isoparametric, MAX_CORNERS, MAX_PARENT_NODES, SingleBasis};
 use crate::simd::Lanes;
 
 /// A point of an overlap.
@@ -17,6 +21,60 @@ pub struct OverlapPoint {
     pub own: [f64; MAX_CORNERS],
     /// N_C, of the mortar facet.
     pub other: [f64; MAX_CORNERS],
+}
+
+/// A point of an overlap of parts of facets of the host.
+#[derive(Clone, Copy, Debug)]
+pub struct PartPoint {
+    /// Its share of the measure, as of [`OverlapPoint`].
+    pub weight: f64,
+    /// N_A, of the multipliers over the non-mortar part.
+    pub own: [f64; MAX_CORNERS],
+    /// N_B and N_C, of all nodes of both facets of the host; over an analytic surface the points of its frame.
+    pub all: [[f64; MAX_PARENT_NODES]; 2],
+}
+
+impl PartPoint {
+    /// As that of facets that have no nodes but these.
+    pub fn overlap_point(&self) -> OverlapPoint {
+        OverlapPoint { weight: self.weight, own: self.own, other: std::array::from_fn(|c| self.all[1][c]) }
+    }
+}
+
+/// Shows `to` the points of an overlap of two parts, with a rule of [`super::rule_for`]: those that their weights are sums over, to rounding.
+pub fn each_part_point(
+    (frame, segment, rule): (&NonmortarFrame, &Segment, &Rule),
+    sides: (Side, Side),
+    space: MultiplierSpace,
+    to: &mut dyn FnMut(&PartPoint) -> Result<()>,
+) -> Result<()> {
+    let (one, two) = (&frame.projection, &segment.mortar);
+    let mut fan = Fan::new(frame, segment);
+    while let Some([apex, p, q]) = fan.triangle() {
+        for [u, v, w] in rule.triangle {
+            let y = apex + p * *u + q * *v;
+            let at = [frame.map.inverse([y.x, y.y]), segment.mortar_map.inverse([y.x, y.y])];
+            let ([of_part, x1], [_, x2]) = (on_parent(sides.0, one, &at[0]), on_parent(sides.1, two, &at[1]));
+            let own = match space {
+                MultiplierSpace::Corner => sides.0.0.cell.values(x1[0], x1[1]),
+                MultiplierSpace::Sub => of_part,
+            };
+            let all = [sides.0.0.values([x1[0], x1[1]]), sides.1.0.values([x2[0], x2[1]])];
+            to(&PartPoint { weight: 0.5 * cross(p, q) * w, own, all })?;
+        }
+    }
+    Ok(())
+}
+
+/// The functions of a part at a point of its projection, by its nodes, and where the point is in the parent's coordinates.
+fn on_parent((parent, sub): Side, projection: &Projection, at: &Preimage) -> [[f64; MAX_CORNERS]; 2] {
+    let mut found = [[0.0; MAX_CORNERS]; 2];
+    for (k, n) in projection.shape.values(at.xi, at.eta).into_iter().enumerate().take(projection.shape.n) {
+        let node = projection.node[k];
+        found[0][node] = n;
+        (0..2).for_each(|i| found[1][i] += n * parent.at[sub.nodes[node]][i]);
+    }
+    found
 }
 
 impl PairWeights {

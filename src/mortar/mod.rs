@@ -44,7 +44,7 @@ pub use at_rest::{facet_motion, facet_motion_raised};
 pub use chain::{AreaDerivatives, ForceDerivatives, WeightDerivatives};
 pub use closed_part::ClosedPart;
 pub use derivatives::{pair_motion, pair_motion_raised};
-pub use each_point::{OverlapPoint, each_point};
+pub use each_point::{OverlapPoint, PartPoint, each_part_point, each_point};
 pub use field::MultiplierSpace;
 pub use frame_motion::{FrameGaps, FrameMotion};
 pub use gap::{AlongNormal, GapBlocks, Raised, gap, height_gap};

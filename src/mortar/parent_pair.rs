@@ -257,6 +257,7 @@ pub fn parent_weights(
 
 impl ParentWeights {
     /// Adds those of a pair of sub-facets, whose rows are these nodes of the parent.
+    #[inline(never)] // it is met several times
     pub fn add(&mut self, rows: &[usize], weights: &SubWeights) {
         for (a, &row) in rows.iter().enumerate() {
             for b in 0..MAX_PARENT_NODES {

@@ -7,7 +7,7 @@
 //! Dg_A = int N_A ((x - y) Dj + j D(x - y)/Dx N_B Dx_B) du dv.
 
 use super::analytic::{area_derivative, no_closest_point};
-use super::each_point::OverlapPoint;
+use super::each_point::PartPoint;
 use super::field::MultiplierSpace;
 use super::segment::NonmortarFrame;
 use super::sub_motion::SubMotion;
@@ -17,7 +17,7 @@ use crate::features;
 use crate::geometry::{AnalyticSurface, FRAME, Mat3, Vec3};
 use crate::quadrature::Rule;
 use crate::quadrature::cell::square_point;
-use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES, monomials};
+use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
 use crate::simd::{self, Kernel, Lanes};
 
 /// The area element j of a part, linear in its coordinates, and its derivative.
@@ -79,8 +79,7 @@ impl Point {
     fn at((parent, sub): Side, space: MultiplierSpace, [u, v, weight]: [f64; 3]) -> Point {
         let of_part = sub.shape.values(u, v);
         let [x, y] = [0, 1].map(|i| (0..sub.shape.n).map(|k| of_part[k] * parent.at[sub.nodes[k]][i]).sum());
-        let terms = monomials(x, y);
-        let n = std::array::from_fn(|b| (0..parent.terms).map(|t| parent.functions[t][b / 4][b % 4] * terms[t]).sum());
+        let n = parent.values([x, y]);
         let test = match space {
             MultiplierSpace::Corner => parent.cell.values(x, y),
             MultiplierSpace::Sub => of_part,
@@ -132,20 +131,17 @@ impl SurfacePair<'_> {
         Ok(weights)
     }
 
-    /// Shows `to` the points of a linear part, with the frame's coordinates of the closest ones in the slots of a mortar facet.
+    /// Shows `to` the points of a part, with the frame's coordinates of the closest ones in place of a mortar facet's functions.
     ///
     /// # Errors
     /// As [`SurfacePair::weights`]; what `to` refuses.
-    pub fn each_point(
-        &self,
-        x: &[Vec3; MAX_PARENT_NODES],
-        to: &mut dyn FnMut(OverlapPoint) -> Result<()>,
-    ) -> Result<()> {
+    pub fn each_point(&self, x: &[Vec3; MAX_PARENT_NODES], to: &mut dyn FnMut(&PartPoint) -> Result<()>) -> Result<()> {
         self.for_points(|p| {
             let x = self.position(&p, x);
             let closest = self.surface.closest(x).ok_or_else(no_closest_point)?;
-            let other = self.surface.coordinates(x - closest.normal * closest.distance);
-            to(OverlapPoint { weight: p.weight * dot(&p.powers, &self.area.of), own: p.test, other })
+            let mut other = [0.0; MAX_PARENT_NODES];
+            other[..FRAME].copy_from_slice(&self.surface.coordinates(x - closest.normal * closest.distance));
+            to(&PartPoint { weight: p.weight * dot(&p.powers, &self.area.of), own: p.test, all: [p.n, other] })
         })
     }
 

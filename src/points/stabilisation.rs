@@ -14,6 +14,7 @@ pub const STIFFNESS: f64 = 0.9;
 const FACTOR: f64 = 1.0 / 6.0;
 
 /// Of a facet with these sizes at its nodes [-].
+#[inline(never)] // it is met several times
 pub fn of_facet(frame: &NonmortarFrame, sizes: &[f64; MAX_CORNERS]) -> [[f64; MAX_CORNERS]; MAX_CORNERS] {
     let (facet, mut sum, mut area) = (&frame.projection, [[0.0; MAX_CORNERS]; MAX_CORNERS], 0.0);
     let n = facet.shape.n;

@@ -78,6 +78,12 @@ impl Parent {
         self.cell.n
     }
 
+    /// The functions N_B at these coordinates of the parent.
+    pub fn values(&self, [x, y]: [f64; 2]) -> [f64; MAX_PARENT_NODES] {
+        let terms = monomials(x, y);
+        std::array::from_fn(|b| (0..self.terms).map(|t| self.functions[t][b / 4][b % 4] * terms[t]).sum())
+    }
+
     /// Groups of four functions.
     pub fn groups(&self) -> usize {
         self.n.div_ceil(4)

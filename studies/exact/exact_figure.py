@@ -10,8 +10,8 @@ import gears  # noqa: E402
 import waves  # noqa: E402
 from figures import BLUE, GREY, INK, RED, _save  # noqa: E402
 
-GREEN, ORANGE = "#3a8f5c", "#d0862c"
-COLOURS = dict(zip((element.name for element in waves.ELEMENTS), (GREY, INK, RED, ORANGE, BLUE, GREEN)))
+GREEN, ORANGE, VIOLET, BROWN = "#3a8f5c", "#d0862c", "#7d5aa6", "#8a6d4b"
+COLOURS = dict(zip((element.name for element in waves.ELEMENTS), (GREY, INK, RED, ORANGE, BLUE, BROWN, GREEN, VIOLET)))
 TICKS = (*waves.FACETS, 40, 80)
 SHOWN = {("quad", 12, "dual"), ("quad", 48, "dual"), ("quad", 24, "points")}
 

@@ -5,13 +5,13 @@ from dataclasses import dataclass
 import numpy as np
 
 import westergaard
-from westergaard import CORNER, CORNER_STANDARD, DUAL, POINTS, STANDARD, SUB
+from westergaard import CORNER, CORNER_POINTS, CORNER_STANDARD, DUAL, POINTS, STANDARD, SUB, SUB_POINTS
 
-ELEMENTS = (STANDARD, DUAL, POINTS, CORNER_STANDARD, CORNER, SUB)
+ELEMENTS = (STANDARD, DUAL, POINTS, CORNER_STANDARD, CORNER, CORNER_POINTS, SUB, SUB_POINTS)
 LOADS = {"light": westergaard.LIGHT, "half": westergaard.HALF}
 FACETS = (5, 10, 20)
 # Of the elements that reach a tenth of a per cent.
-FINE, MORE = (DUAL, POINTS), {"light": (40,), "half": (40, 80)}
+FINE, HALVED, MORE = (DUAL, POINTS, SUB_POINTS), (DUAL, POINTS), {"light": (40,), "half": (40, 80)}
 # Over the half wave.
 CLOSING = (10, 20, 40)
 
@@ -93,7 +93,7 @@ GRADED, TIMES = (5, 10), (0, 1, 2, 3)
 def graded(driver):
     head = ["element", "facets", *(["equal"] + [f"halved {n} times" for n in TIMES[1:]]), "seconds"]
     body = []
-    for element in FINE:
+    for element in HALVED:
         for facets in GRADED:
             of = [measure(driver, element, facets, westergaard.LIGHT, times) for times in TIMES]
             body.append([element.name, str(facets), *(f"{100 * f.errors.mean():.2f} ({100 * f.errors.max():.2f})" for f in of), f"{of[-1].seconds:.2f}"])

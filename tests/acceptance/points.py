@@ -298,6 +298,7 @@ REFUSALS = {
     "friction, weights of now": ({"friction": 0.3, "law": "coulomb", "weights": "current"}, "`weights: committed`"),
     "friction, the paper's slip": ({"friction": 0.3, "law": "coulomb", "slip": "paper"}, "paper's slip"),
     "tied": ({"law": "tied"}, "tied"),
+    "wear": ({"friction": 0.3, "law": "coulomb", "wear": 1e-6}, "wear"),
     "augmented": ({"form": "augmented"}, "augmented"),
     "elements": ({"integration": "elements"}, "overlaps"),
     "standard basis": ({"basis": "standard"}, "standard multipliers"),

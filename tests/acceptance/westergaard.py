@@ -54,6 +54,8 @@ POINTS = element("points", decision="points")
 CORNER = element("quadratic, corner", "quad8", multiplier_space="corner")
 CORNER_STANDARD = element("quadratic, corner, standard", "quad8", multiplier_space="corner", basis="standard")
 SUB = element("quadratic, sub", "quad8", multiplier_space="sub")
+CORNER_POINTS = element("quadratic, corner, points", "quad8", multiplier_space="corner", decision="points")
+SUB_POINTS = element("quadratic, sub, points", "quad8", multiplier_space="sub", decision="points")
 
 
 def half_widths(facets, part, count=POSITIONS):

@@ -97,6 +97,20 @@ impl<const N: usize> Point<'_, N> {
         forces.chain(r.rows.iter().flat_map(|v| v.iter().copied())).collect()
     }
 
+    /// Along a direction, the best of central differences with these steps, over the largest derivative: where many points decide, a step
+    /// may meet a kink of one of them.
+    pub fn error_along(&mut self, direction: &[f64], steps: &[f64]) -> f64 {
+        let (k, n, z) = (self.tangent(), self.unknowns(), self.values());
+        let exact: Vec<f64> = (0..n).map(|i| direction.iter().zip(&k[i * n..]).map(|(d, k)| k * d).sum()).collect();
+        let mut error = |h: f64| {
+            let mut at = |h: f64| self.residual(&z.iter().zip(direction).map(|(z, d)| z + h * d).collect::<Vec<_>>());
+            let (plus, minus) = (at(h), at(-h));
+            max_abs(exact.iter().enumerate().map(|(i, e)| (plus[i] - minus[i]) / (2.0 * h) - e))
+                / max_abs(exact.iter().copied())
+        };
+        steps.iter().map(|&h| error(h)).fold(f64::INFINITY, f64::min)
+    }
+
     /// See [`worst_difference`].
     pub fn difference_error(&mut self, floor: f64) -> f64 {
         let (k, ends, x) = (self.tangent(), self.ends(), self.values());

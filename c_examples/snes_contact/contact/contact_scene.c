@@ -364,6 +364,7 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact)
   strings_destroy(n_named, &names);
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     PetscCall(read_nodes(scene, contact, &contact->interfaces[i]));
+    PetscCall(decision_hold(scene, contact, &contact->interfaces[i]));
     PetscCall(conserving_look(contact, &contact->interfaces[i]));
     PetscCall(refuse_twice(scene, contact, i));
   }

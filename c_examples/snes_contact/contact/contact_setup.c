@@ -50,20 +50,6 @@ static PetscErrorCode create_homes(Contact *contact, Interface *interface)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Facets with nodes in the middle of their edges, on either side: their condensation wants all of them in one handle. */
-static PetscErrorCode has_middles(const Mesh *mesh, const Interface *interface, PetscBool *any)
-{
-  PetscFunctionBegin;
-  *any = PETSC_FALSE;
-  for (int side = 0; side < 2; side++) {
-    const Surface *surface = interface->surface[side];
-    for (PetscInt f = 0; f < surface->n_faces; f++)
-      *any = (PetscBool)(*any || surface->offsets[f + 1] - surface->offsets[f] > cell_corners(mesh_face_kind(mesh, surface, f)));
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, any, 1, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* of the mortar side's facets on all ranks, of a skin of all */
 static PetscErrorCode longest_edge(const Interface *interface, PetscReal *longest)
 {
@@ -95,7 +81,7 @@ static PetscErrorCode look_at_surfaces(const Mesh *mesh, Interface *interface)
   const stickslip_method  *method  = &interface->method;
   PetscFunctionBegin;
   PetscCall(longest_edge(interface, &interface->longest_edge));
-  PetscCall(has_middles(mesh, interface, &interface->middles));
+  PetscCall(surfaces_have_middles(mesh, interface, &interface->middles));
   interface->uncut  = (PetscBool)(interface->dimension == 2 || interface->skin || interface->surface[1]->analytic || interface->middles);
   interface->frozen = (PetscBool)(method->weights == STICKSLIP_WEIGHTS_REFERENCE || options->friction == STICKSLIP_FRICTION_TIED);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -186,3 +186,17 @@ PetscErrorCode surfaces_destroy(Interface *interface)
   PetscCall(forget_nodes(interface));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+/* Facets with nodes in the middle of their edges, on either side: their condensation wants all of them in one handle. */
+PetscErrorCode surfaces_have_middles(const Mesh *mesh, const Interface *interface, PetscBool *any)
+{
+  PetscFunctionBegin;
+  *any = PETSC_FALSE;
+  for (int side = 0; side < 2; side++) {
+    const Surface *surface = interface->surface[side];
+    for (PetscInt f = 0; f < surface->n_faces; f++)
+      *any = (PetscBool)(*any || surface->offsets[f + 1] - surface->offsets[f] > cell_corners(mesh_face_kind(mesh, surface, f)));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, any, 1, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

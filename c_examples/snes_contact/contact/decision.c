@@ -19,6 +19,22 @@ PetscBool decision_is_points(const Interface *interface)
   return (PetscBool)(interface->method.decision == STICKSLIP_DECISION_POINTS);
 }
 
+/* Facets with nodes in the middle of their edges know no weights of now: unless the scene says which it wants, those of the last commit. */
+PetscErrorCode decision_hold(Scene *scene, const Contact *contact, Interface *interface)
+{
+  stickslip_method *const methods[] = {&interface->method, &interface->otherwise};
+  PetscBool               middles;
+  PetscFunctionBegin;
+  if (!decision_is_points(interface) || scene_has(scene, interface->name, "weights")) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(surfaces_have_middles(contact->mesh, interface, &middles));
+  for (int i = 0; i < 2 && middles; i++) {
+    if (methods[i]->weights != STICKSLIP_WEIGHTS_CURRENT) continue;
+    methods[i]->weights = STICKSLIP_WEIGHTS_COMMITTED;
+    if (!scene_has(scene, interface->name, "normals")) methods[i]->normals = STICKSLIP_NORMALS_COMMITTED;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* E / (1 - nu^2), of plane stress E: what a half-space, or a half-plane, of the material resists with, by its small strains. */
 static PetscReal half_space(const Space *space, const Material *material)
 {

@@ -99,6 +99,7 @@ struct Interface {
 PetscErrorCode surfaces_read(Scene *scene, Contact *contact, Interface *interface);
 PetscErrorCode surfaces_move(Contact *contact, const Interface *interface);
 PetscErrorCode surfaces_destroy(Interface *interface);
+PetscErrorCode surfaces_have_middles(const Mesh *mesh, const Interface *interface, PetscBool *any); /* nodes that are no corners of faces */
 
 /* creases.c: the nodes of the non-mortar surface, those on sharp edges once for each side: `nodes`, in place of the homes that there are */
 PetscErrorCode creases_split(Scene *scene, const Contact *contact, Interface *interface, PetscInt **nodes); /* NULL: none is split */
@@ -142,6 +143,7 @@ int32_t   layer_set(const Interface *interface, stickslip_interface *handle);
 /* decision.c; `settle` when bodies are known */
 void           decision_read(Scene *scene, Interface *interface);
 PetscBool      decision_is_points(const Interface *interface);
+PetscErrorCode decision_hold(Scene *scene, const Contact *contact, Interface *interface);
 PetscErrorCode decision_settle(const Contact *contact, Interface *interface);
 /* offsets.c; `fetch` through an SF from homes to the nodes of the part */
 PetscErrorCode offsets_read(Scene *scene, const Physics *physics, Interface *interface);

@@ -180,8 +180,6 @@ static PetscErrorCode read_interfaces(Scene *scene, Heat *heat)
                                .exponent = contact > 0 ? exponent : 0, .constant = constant, .gas = gas, .gas_gap = distance,
                                .reach = reach, .share = share, .time = rubs ? 1 : 0};
     of->passes = (PetscBool)(contact > 0 || constant > 0 || gas > 0 || rubs);
-    if (of->passes && decision_is_points(&heat->contact->interfaces[i]))
-      scene_fail(scene, name, "decision", "heat needs `nodes`.");
     if (of->passes && heat->contact->interfaces[i].skin)
       scene_fail(scene, name, NULL, "no heat passes in general contact: name these surfaces in `interfaces`, beside `contact: all`.");
   }

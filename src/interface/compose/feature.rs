@@ -56,6 +56,7 @@ features! {
     OwnLaw "a law of one's own" "leave Coulomb's";
     Orthotropic "orthotropic friction" "give one mu";
     Points "points that decide (STICKSLIP_DECISION_POINTS)" "take STICKSLIP_DECISION_NODES";
+    NodesDecide "nodes that decide (STICKSLIP_DECISION_NODES)" "take STICKSLIP_DECISION_POINTS";
     ElementPoints "points that stand for overlaps (method.element_points)" "take STICKSLIP_INTEGRATION_SEGMENTS";
     FrozenTangent "the tangent with frozen weights (STICKSLIP_TANGENT_FROZEN_WEIGHTS)" "take the exact tangent";
     FrozenNormals "the tangent with frozen normals (STICKSLIP_TANGENT_FROZEN_NORMALS)" "take the exact tangent";
@@ -70,7 +71,6 @@ features! {
     SumsTangent "the tangent by sums of several handles" "";
     Condensed "condensation" "keep multipliers as unknowns";
     InPlace "a matrix condensed in place" "take the pieces (stickslip_interface_condensed_coo), which add up over the handles";
-    Heat "heat" "";
     HeatMotion "derivatives of heat by displacements and multipliers" "solve for temperatures in turns with the mechanics";
     Derivatives "derivatives by positions of t_n and by parameters" "";
     WeightsCommitted "weights of the last commit (STICKSLIP_WEIGHTS_COMMITTED)" "take STICKSLIP_WEIGHTS_CURRENT";

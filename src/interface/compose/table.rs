@@ -108,15 +108,15 @@ rows! {
     NotBuilt [ElementPoints Quadratic] "they are integrated over overlaps" [ElementPoints];
     NotBuilt [ElementPoints Lines] "they are integrated over overlaps" [ElementPoints];
     Meaningless [FrozenNormals Lines] "it compares with codes of facets in space" [FrozenNormals];
-    Meaningless [DualBasis AllNodes] "their areas would not be positive" [AllNodes DualBasis];
+    Meaningless [DualBasis AllNodes NodesDecide] "their areas would not be positive" [AllNodes DualBasis NodesDecide];
     NotBuilt [Points Analytic WeightsNow] "what is closed of a facet is not differentiated against a shape" [WeightsNow Points];
-    NotBuilt [Points MidNodes] "" [Points MidNodes];
+    NotBuilt [Points MidNodes WeightsNow] "what is closed of a facet with mid nodes is not differentiated" [WeightsNow Points];
     NotBuilt [MovingFrame Conserving] "its own work is not counted" [MovingFrame Conserving];
     // What is set.
     Meaningless [HostNormals Conserving] "gaps would be no functions of the places" [HostNormals Conserving];
     Meaningless [HostNormals NormalsNow] "they would not follow the motion" [NormalsNow HostNormals];
     NotBuilt [OwnLaw Points] "it is asked at nodes" [Points];
-    NotBuilt [Layer Points] "it is asked at nodes" [Points];
+    NotBuilt [LayerSlips Points] "it is asked at nodes" [LayerSlips Points];
     Meaningless [Layer Tied] "tied surfaces neither open nor slip, nor give way" [Layer Tied];
     Meaningless [LayerSlips PaperSlip] "it follows slip, which that measure makes of curved surfaces at rest" [PaperSlip];
     Meaningless [Orthotropic Lines] "a plane or axisymmetric model has one direction to slip in" [Orthotropic];
@@ -142,7 +142,7 @@ rows! {
     Meaningless [Sums Carried] "weakly covered nodes are carried within one handle only" [Carried];
     NotBuilt [Sums Conserving] "forces follow the gaps of all handles" [Conserving];
     Meaningless [SumsTangent Augmented] "it couples pairs of different handles" [Augmented];
-    NotBuilt [Heat Points] "pressures are of points" [Points];
+    NotBuilt [HeatMotion Points] "pressures are of points" [HeatMotion Points];
     NotBuilt [HeatMotion Conserving] "they follow the positions of t_n, too" [HeatMotion Conserving];
     Meaningless [Derivatives FrozenTangent] "adjoints solve with the exact tangent" [FrozenTangent];
     Meaningless [Derivatives FrozenNormals] "adjoints solve with the exact tangent" [FrozenNormals];

@@ -137,7 +137,7 @@ fn is_open(shares: &[Vec3; MAX_CORNERS]) -> bool {
 /// What dual multipliers make of a part's gaps, with all pairs of its facet f of the host.
 fn dual_shares(one: &Surface, at: &Active, f: usize, shares: &[Vec3; MAX_CORNERS]) -> Result<[Vec3; MAX_CORNERS]> {
     let [first, end] = [f, f + 1].map(|f| at.parents.partition_point(|pair| pair.one < f));
-    let Some(basis) = one.parent_basis(f, &at.x1, at.integrated_parents[first..end].iter())? else {
+    let Some(basis) = one.parent_basis(f, &at.x1, &mut at.integrated_parents[first..end].iter())? else {
         return Ok([Vec3::zeros(); MAX_CORNERS]);
     };
     let a = basis.faded_coefficients();

@@ -80,11 +80,12 @@ impl Surface {
     }
 
     /// The dual basis of facet f of the host, which has parents, with these weights of all of its pairs, if it has not faded out.
-    pub fn parent_basis<'a>(
+    #[inline(never)] // it is met several times
+    pub fn parent_basis(
         &self,
         f: usize,
         x: &[Vec3],
-        weights: impl Iterator<Item = &'a ParentWeights>,
+        weights: &mut dyn Iterator<Item = &ParentWeights>,
     ) -> Result<Option<DualBasis>> {
         let parents = self.parents.as_ref().expect("asked of surfaces with parents");
         let area = match parents.lines {

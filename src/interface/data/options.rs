@@ -273,7 +273,8 @@ impl Options {
     pub fn settle(self, wishes: Wishes) -> Options {
         let stays = self.decision != Decision::Nodes && self.friction != Friction::None;
         let weights = wishes.weights.unwrap_or(if stays { Weights::Committed } else { Weights::Current });
-        let standard = self.space == MultiplierSpace::Sub || weights == Weights::Conserving;
+        let sub = self.space == MultiplierSpace::Sub && self.decision == Decision::Nodes;
+        let standard = sub || weights == Weights::Conserving;
         let choice = if standard { MultiplierBasis::Standard } else { MultiplierBasis::Dual };
         let basis = wishes.basis.unwrap_or(choice);
         let yields = (wishes.normals.is_none(), wishes.weights.is_none());
@@ -298,9 +299,9 @@ impl Options {
         Options { normals, ..self }
     }
 
-    /// Opposite an analytic surface: points that decide take no weights of now there.
+    /// Opposite an analytic surface, or with mid nodes: points that decide take no weights of now there.
     #[must_use]
-    pub fn beside_shape(self) -> Options {
+    pub fn with_held_points(self) -> Options {
         if !self.decides_at_points() || !self.weights_yield {
             return self;
         }
@@ -367,6 +368,7 @@ impl Options {
             (Feature::Friction, law.opens && law.multipliers > 1),
             (Feature::Tied, !law.opens),
             (Feature::Points, self.decides_at_points()),
+            (Feature::NodesDecide, !self.decides_at_points()),
             (Feature::ElementPoints, self.scheme != Scheme::Segments),
             (Feature::FrozenTangent, is_now && self.tangent == Tangent::FrozenWeights),
             (Feature::FrozenNormals, self.tangent == Tangent::FrozenNormals),

@@ -4,8 +4,8 @@ use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::law::Projected;
 use crate::memory::Store;
-use crate::mortar::OverlapPoint;
-use crate::shape::MAX_CORNERS;
+use crate::mortar::{OverlapPoint, PartPoint};
+use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
 
 /// Reals that a point remembers: a vector.
 pub const REALS_PER_POINT: usize = 3;
@@ -21,6 +21,8 @@ pub struct FrictionNode {
     pub sigma: (f64, Vec3),
     /// lambda_N and lambda_T.
     pub lambda: (f64, Vec3),
+    /// d sigma_A / d lambda_A - 1.
+    pub yields: Mat3,
     /// rhat_A / D_A: how sigma follows the weighted gap [F/L^5].
     pub slope: f64,
 }
@@ -30,6 +32,8 @@ pub struct FrictionNode {
 pub struct PointFriction {
     /// Of all pairs, one after the other; phi is in their weights.
     pub points: Vec<OverlapPoint>,
+    /// Where facets have nodes that are no corners, N_B and N_C of all of them at each point.
+    pub all: Vec<[[f64; MAX_PARENT_NODES]; 2]>,
     /// Per pair where its points end.
     pub ends: Vec<usize>,
     /// Of every node.
@@ -51,6 +55,24 @@ impl PointFriction {
     /// Stores the points of the next pair, those that `each` shows.
     pub fn keep(&mut self, each: impl FnOnce(&mut dyn FnMut(OverlapPoint) -> Result<()>) -> Result<()>) -> Result<()> {
         each(&mut |point| self.points.store(point))?;
+        self.end_pair()
+    }
+
+    /// None of any step.
+    pub fn clear(&mut self) {
+        self.points.clear();
+        self.ends.clear();
+        self.all.clear();
+    }
+
+    /// Stores another point of a pair of facets that have parts.
+    pub fn keep_point(&mut self, point: &PartPoint) -> Result<()> {
+        self.all.store(point.all)?;
+        self.points.store(point.overlap_point())
+    }
+
+    /// Ends a pair whose points are stored.
+    pub fn end_pair(&mut self) -> Result<()> {
         self.ends.store(self.points.len())
     }
 
@@ -66,19 +88,29 @@ impl PointFriction {
         begin..self.ends[pair]
     }
 
-    /// The points of pairs that follow each other, and what they answer.
+    /// The functions of all nodes of both facets at a point, and those of the multipliers.
+    #[inline]
+    pub fn functions(&self, q: usize) -> [&[f64]; 3] {
+        let OverlapPoint { own, other, .. } = &self.points[q];
+        self.all.get(q).map_or([own, other, own], |all| [&all[0], &all[1], own])
+    }
+
+    /// The same of pairs that follow each other.
+    pub fn of_pairs(&self, pairs: std::ops::Range<usize>) -> std::ops::Range<usize> {
+        if pairs.is_empty() { 0..0 } else { self.of_pair(pairs.start).start..self.ends[pairs.end - 1] }
+    }
+
+    /// The points of these places, and what they answer.
     pub fn answered(&self, pairs: std::ops::Range<usize>) -> (&[OverlapPoint], &[Projected]) {
-        if pairs.is_empty() {
-            return (&[], &[]);
-        }
-        let (first, end) = (self.of_pair(pairs.start).start, self.ends[pairs.end - 1]);
-        (&self.points[first..end], &self.answers[first..end])
+        let of = self.of_pairs(pairs);
+        (&self.points[of.start..of.end], &self.answers[of.start..of.end])
     }
 
     /// On the heap `[bytes]`.
     pub fn bytes(&self) -> usize {
         self.points.capacity() * size_of::<OverlapPoint>()
             + self.ends.capacity() * size_of::<usize>()
+            + self.all.capacity() * size_of::<[[f64; MAX_PARENT_NODES]; 2]>()
             + self.nodes.capacity() * size_of::<FrictionNode>()
             + self.answers.capacity() * size_of::<Projected>()
             + (self.forces.capacity() + self.opposite.capacity()) * size_of::<[Vec3; MAX_CORNERS]>()

@@ -2,10 +2,13 @@
 
 use super::point_friction::PointFriction;
 use crate::geometry::Vec3;
-use crate::mortar::PairWeights;
-use crate::shape::MAX_CORNERS;
+use crate::mortar::{PairWeights, SubWeights};
+use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
 use nalgebra::SVector;
 use std::ops::Range;
+
+/// phi int N_B t and phi int N_C t of all nodes of two facets of the host [F].
+pub type Push = [[Vec3; MAX_PARENT_NODES]; 2];
 
 /// By two of a facet's nodes.
 pub type OfNodes = [[f64; MAX_CORNERS]; MAX_CORNERS];
@@ -13,7 +16,7 @@ pub type OfNodes = [[f64; MAX_CORNERS]; MAX_CORNERS];
 /// A facet of the host that has pairs.
 #[derive(Clone, Copy, Debug)]
 pub struct PointFacet {
-    /// Its number.
+    /// Its number: that of the surface's facet. Of the host's one it is all, or a part.
     pub one: usize,
     /// Its first pair, and the one after its last.
     pub pairs: [usize; 2],
@@ -61,6 +64,9 @@ pub struct PointPair {
     pub whole: PairWeights,
     /// Dual.
     pub dual: PairWeights,
+    /// Where facets have parts, the places of the mortar facet's among all of these. Then the weights above are int N_A N_B of
+    /// multipliers alone.
+    pub parts: [usize; 2],
 }
 
 /// Adds n_AB of a pair to those of its facet.
@@ -123,10 +129,19 @@ pub struct Points {
     pub rows: Vec<f64>,
     /// Per facet int N_A t of its nodes; 0 where it is open.
     pub forces: Vec<[f64; MAX_CORNERS]>,
+    /// Per node, where the surfaces give way under pressure, the depth `[L]` and d sigma_A / d lambda_A; else none.
+    pub yields: Vec<[f64; 2]>,
     /// Per node int N_A t over its covered area [F/L^2].
     pub tractions: Vec<f64>,
     /// Whether anything covers it.
     pub is_covered: Vec<bool>,
+    /// Where facets have nodes that are no corners they come part by part: the mortar facets' parts, pair by pair, and what
+    /// multipliers have of all nodes of both facets, of each pair and of each closed part of one, without phi; and what each pair is pushed with.
+    pub has_parts: bool,
+    pub parts: Vec<usize>,
+    pub acts: Vec<SubWeights>,
+    pub closed_acts: Vec<SubWeights>,
+    pub pushes: Vec<Push>,
     /// With friction.
     pub friction: PointFriction,
 }
@@ -142,6 +157,23 @@ impl Points {
         }
     }
 
+    /// The same of what acts on all nodes of both facets, where facets have parts, without phi.
+    #[inline]
+    pub fn acts(&self, facet: usize, pair: usize) -> Option<&SubWeights> {
+        match self.states[facet] {
+            _ if !self.has_parts => None,
+            Closed::Nothing => None,
+            Closed::All => Some(&self.acts[pair]),
+            Closed::Part(first) => Some(&self.closed_acts[first + pair - self.facets[facet].pairs[0]]),
+        }
+    }
+
+    /// The depth by which the surfaces give way at node A, and d sigma_A / d lambda_A.
+    #[inline]
+    pub fn yields(&self, a: usize) -> [f64; 2] {
+        self.yields.get(a).copied().unwrap_or([0.0, 1.0])
+    }
+
     /// On the heap `[bytes]`.
     pub fn bytes(&self) -> usize {
         let reals =
@@ -151,7 +183,11 @@ impl Points {
             + self.pairs.capacity() * size_of::<PointPair>()
             + self.states.capacity() * size_of::<Closed>()
             + self.closed.capacity() * size_of::<PairWeights>()
+            + self.parts.capacity() * size_of::<usize>()
+            + (self.acts.capacity() + self.closed_acts.capacity()) * size_of::<SubWeights>()
+            + self.pushes.capacity() * size_of::<Push>()
             + reals.iter().map(|v| v.capacity() * size_of::<f64>()).sum::<usize>()
+            + self.yields.capacity() * size_of::<[f64; 2]>()
             + self.forces.capacity() * size_of::<[f64; MAX_CORNERS]>()
             + self.is_covered.capacity()
             + self.friction.bytes()

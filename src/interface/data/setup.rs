@@ -53,7 +53,8 @@ impl<const N: usize> Setup<N> {
         mu: Vec<f64>,
         effects: Effects<N>,
     ) -> Result<Setup<N>> {
-        let options = if mortar.analytic.is_some() { options.beside_shape() } else { options };
+        let holds = mortar.analytic.is_some() || nonmortar.has_mid_nodes() || mortar.has_mid_nodes();
+        let options = if holds { options.with_held_points() } else { options };
         options.validate()?;
         if multiplier_equations.len() != nonmortar.len() {
             let text = text!(

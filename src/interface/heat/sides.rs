@@ -19,6 +19,8 @@ pub struct Place<'a, const N: usize> {
     pub temperatures: [&'a [f64]; 2],
     /// The law's answers.
     pub responses: &'a [NodeResponse<N>],
+    /// What friction takes, where it acts at points; else it follows from the answers.
+    pub work: Option<&'a [f64]>,
     /// What the nodes assemble.
     pub sums: &'a [NodeSums],
     /// How heat passes.
@@ -58,7 +60,7 @@ impl<const N: usize> Place<'_, N> {
             pressure: (-nu.dot(&response.traction)).max(0.0),
             gap,
             area,
-            work: response.traction.dot(&response.slip),
+            work: self.work.map_or_else(|| response.traction.dot(&response.slip), |work| work[a]),
         }))
     }
 

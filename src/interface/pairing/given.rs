@@ -138,10 +138,16 @@ impl<'a, const N: usize> Given<'a, N> {
         given.map_or_else(|| self.setup.options.augmentation(self.size(a)) / area, |r| r[a])
     }
 
+    /// rhat_A = r_A M_A [F/L^3].
+    pub fn rhat(self, a: usize) -> f64 {
+        self.augmentation(a) * self.history().areas[a]
+    }
+
     /// h_A: the root of M_A, or how long the lines of a plane model are around the node `[L]`; where points decide, that of the
     /// facets around it, of which a node on an edge has fewer.
     pub fn size(self, a: usize) -> f64 {
-        if self.setup.decides_at_points() {
+        // Facets know no size of a node at which they have no multiplier.
+        if self.setup.decides_at_points() && self.setup.nonmortar.has_row(a) {
             return self.facet_size(a);
         }
         let history = self.history();

@@ -3,6 +3,7 @@
 
 use super::facet::{dual_parents, facet};
 use super::integrate::integrate;
+use super::part_weights::dual_parts;
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
@@ -10,7 +11,7 @@ use crate::interface::data::options::{MultiplierBasis, Options};
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::filter::Filter;
 use crate::interface::pairing::work::Work;
-use crate::mortar::{NonmortarFrame, Segment};
+use crate::mortar::{MultiplierSpace, NonmortarFrame, Segment};
 
 /// All active pairs at x, with the filter of another or the same configuration, in the memory of `active`. What is there
 /// after a refusal means nothing.
@@ -28,7 +29,10 @@ pub fn acting(
     }
     if surfaces.0.parents.is_some() {
         integrate(surfaces, options, filter, work, x, active, None)?;
-        return dual_parents(surfaces.0, active);
+        return match options.space {
+            MultiplierSpace::Sub if surfaces.0.has_mid_nodes() => dual_parts(surfaces, options, active),
+            _ => dual_parents(surfaces.0, active),
+        };
     }
     // That pairs cannot be integrated is said before what their facets lack.
     let following = |active: &mut Active, first: usize, overlaps: (&NonmortarFrame, &[Segment])| {

@@ -160,11 +160,23 @@ pub fn filter_again(
 ) -> Result<Option<Filter>> {
     let mut filter = filter_of(surfaces, options, history)?;
     if let Some(filter) = filter.as_mut().filter(|_| history.integrated) {
-        let (x, mut active) = ((&history.x1[..], &history.x2[..]), Active::default());
-        acting(surfaces, options, filter, work, x, &mut active)?;
-        layers::settle(surfaces, options, filter, work, x, &mut active)?;
+        pairs(surfaces, options, filter, work, (&history.x1, &history.x2))?;
     }
     Ok(filter)
+}
+
+/// The active pairs at (x1, x2) with a filter of it that hides nothing yet.
+pub fn pairs(
+    surfaces: (&Surface, &Surface),
+    options: &Options,
+    filter: &mut Filter,
+    work: &mut Work,
+    x: (&[Vec3], &[Vec3]),
+) -> Result<Active> {
+    let mut active = Active::default();
+    acting(surfaces, options, filter, work, x, &mut active)?;
+    layers::settle(surfaces, options, filter, work, x, &mut active)?;
+    Ok(active)
 }
 
 /// Makes up for the weights of t_n, and what is hidden, where they were left out because the surfaces were apart then.
@@ -174,10 +186,8 @@ pub fn complete(
     (history, filter): (&mut History, &mut Filter),
     work: &mut Work,
 ) -> Result<()> {
-    let (mut new, mut sums) = (Active::default(), Vec::new());
-    let x = (&history.x1[..], &history.x2[..]);
-    acting(surfaces, options, filter, work, x, &mut new)?;
-    layers::settle(surfaces, options, filter, work, x, &mut new)?;
+    let (x, mut sums) = ((&history.x1[..], &history.x2[..]), Vec::new());
+    let mut new = pairs(surfaces, options, filter, work, x)?;
     assemble(surfaces, new.weighted(surfaces), x, &mut sums)?;
     history.fill(&mut new, surfaces.0.parents.is_some(), &sums)
 }

@@ -51,7 +51,7 @@ pub fn dual_parents(nonmortar: &Surface, active: &mut Active) -> Result<()> {
     active.integrated_parents.store_all(active.parents.iter().map(|pair| pair.weights))?;
     let x1 = &active.x1;
     for pairs in active.parents.chunk_by_mut(|p, q| p.one == q.one) {
-        let basis = nonmortar.parent_basis(pairs[0].one, x1, pairs.iter().map(|pair| &pair.weights))?;
+        let basis = nonmortar.parent_basis(pairs[0].one, x1, &mut pairs.iter().map(|pair| &pair.weights))?;
         for pair in pairs {
             pair.weights = basis.as_ref().map_or_else(ParentWeights::default, |b| b.parent_weights(&pair.weights));
         }

@@ -81,6 +81,11 @@ impl OwnAnswers {
         answer.turn(law, &node, &Node { special, ..answer.inner(&node) })
     }
 
+    /// By how much the surfaces give way at node A: see [`LayerAnswer::yields`].
+    pub fn yields(&self, a: usize) -> Option<[f64; 3]> {
+        self.layers.get(a).map(LayerAnswer::yields)
+    }
+
     /// Traction that a bond bears at node A.
     pub fn bonded(&self, a: usize) -> Vec3 {
         self.layers.get(a).map_or(Vec3::zeros(), |answer| answer.traction)

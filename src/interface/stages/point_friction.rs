@@ -8,13 +8,14 @@
 //! z is what a point's traction has that the multipliers' field has not. It stays where nothing slips, so that nothing creeps. Where the
 //! weights are made anew at a commit, z is carried to the points of the new ones (`point_memory.rs`).
 
+use super::own::OwnAnswers;
 use super::residual::Residual;
 use super::sums::NodeSums;
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::multiplier;
 use crate::interface::data::point_friction::{FrictionNode, REALS_PER_POINT};
-use crate::interface::data::points::{Closed, Points};
+use crate::interface::data::points::{Closed, Points, Push};
 use crate::interface::pairing::given::Given;
 use crate::law::{NodeResponse, Projected, State, Threshold, project_parts};
 use crate::memory::{self, Store};
@@ -76,6 +77,12 @@ impl Shares {
     }
 }
 
+/// Adds a force at a point, by the functions of some nodes.
+#[inline(never)] // unrolled it is large
+fn add_force(sums: &mut [Vec3], n: &[f64], force: Vec3) {
+    sums.iter_mut().zip(n).for_each(|(sum, n)| *sum += force * *n);
+}
+
 impl Points {
     /// Points of the step, each of which remembers a vector.
     pub fn count<const N: usize>(&mut self, given: Given<N>) -> Result<usize> {
@@ -98,7 +105,9 @@ impl Points {
                 self.is_covered[a] = true;
                 node.slope = self.rhat[a] / sum.coverage;
                 let slip = along * (sum.gap_now - sum.gap_committed * committed);
-                node.sigma.0 = node.lambda.0 + node.slope * normal.dot(&sum.gap_now);
+                let [depth, by_lambda] = self.yields(a);
+                node.yields = normal * (normal.transpose() * (by_lambda - 1.0));
+                node.sigma.0 = node.lambda.0 + node.slope * (normal.dot(&sum.gap_now) + sum.coverage * depth);
                 node.sigma.1 = node.lambda.1 + slip * node.slope;
             }
             self.friction.nodes.store(node)?;
@@ -121,7 +130,7 @@ impl Points {
             *told = Told { normal: node.sigma.0, along, field, mu: mu[a], rhat: rhat[a] };
         }
         for place in facet.places() {
-            let mut opposite = [Vec3::zeros(); MAX_CORNERS];
+            let (mut opposite, mut push) = ([Vec3::zeros(); MAX_CORNERS], Push::default());
             for q in friction.of_pair(place) {
                 let (point, mut here) = (&friction.points[q], Told::default());
                 told.iter().zip(&point.own).for_each(|(told, n)| here.add(told, *n));
@@ -133,10 +142,16 @@ impl Points {
                 all.add(&answer, point, answer.tangential.dot(&(trial - answer.tangential)) / here.rhat);
                 let force = answer.traction * point.weight;
                 opposite.iter_mut().zip(&point.other).for_each(|(sum, n)| *sum += force * *n);
+                if let Some(all) = friction.all.get(q) {
+                    push.iter_mut().zip(all).for_each(|(push, n)| add_force(push, n, force));
+                }
                 friction.answers.store(answer)?;
                 friction.states.store_all((answer.tangential - here.field).iter().copied())?;
             }
             friction.opposite.store(opposite)?;
+            if self.has_parts {
+                self.pushes.store(push)?;
+            }
         }
         friction.forces.store(all.force)?;
         Ok(all)
@@ -147,10 +162,11 @@ impl Points {
         &mut self,
         given: Given<N>,
         lambda: &[SVector<f64, N>],
-        sums: &[NodeSums],
+        (sums, own): (&[NodeSums], &OwnAnswers),
         responses: &mut [NodeResponse<N>],
     ) -> Result<()> {
         self.check_memory(given)?;
+        self.give_way(given, own)?;
         self.tell(given, lambda, sums)?;
         memory::refill(&mut self.shares, 0.0, lambda.len())?;
         memory::refill(&mut self.friction.shares, 0.0, lambda.len())?;
@@ -158,6 +174,7 @@ impl Points {
         self.friction.answers.clear();
         self.friction.forces.clear();
         self.friction.opposite.clear();
+        self.pushes.clear();
         self.friction.states.clear();
         self.states.clear();
         for (a, response) in responses.iter_mut().enumerate().filter(|(a, _)| self.is_covered[*a]) {
@@ -175,7 +192,7 @@ impl Points {
             let of = self.ask(given, at)?;
             let (facet, friction) = (&self.facets[at], &mut self.friction);
             for (k, &a) in facet.nodes().iter().enumerate().filter(|(_, a)| self.is_covered[**a]) {
-                let (node, rhat) = (friction.nodes[a], self.rhat[a]);
+                let (node, rhat) = (friction.nodes[a], given.rhat(a));
                 let (mut normal, mut along) = (facet.normal.dot(&of.force[k]), in_plane(of.force[k], facet.normal));
                 for (l, &b) in facet.nodes().iter().enumerate() {
                     let left = facet.mass[k][l] + self.factors[a] * facet.stabilisation[k][l];
@@ -205,6 +222,11 @@ impl Points {
     ) -> Result<()> {
         let two = &given.setup.mortar;
         r.clear(given.setup.surfaces())?;
+        if self.has_parts {
+            self.add_pushes(given.setup.surfaces(), (&mut r.nonmortar, &mut r.mortar));
+            r.take_rows(given, responses);
+            return Ok(());
+        }
         for (facet, forces) in self.facets.iter().zip(&self.friction.forces) {
             facet.nodes().iter().zip(forces).for_each(|(&a, force)| r.nonmortar[a] += force);
             for place in facet.places() {

@@ -94,10 +94,11 @@ impl Points {
             let facet_before = before.facet(facet.one);
             let old = facet_before.and_then(|of| Tractions::of(of, before));
             let mut places = [[Vec3::zeros(); MAX_CORNERS]; 2];
-            for (k, &a) in one.host_nodes(facet.one).iter().enumerate() {
+            let nodes = one.facets[facet.one].as_slice();
+            for (k, &a) in nodes.iter().enumerate() {
                 (places[0][k], places[1][k]) = (x1[a], now[a]);
             }
-            let [old_places, new_places] = [&places[0][..facet.n], &places[1][..facet.n]];
+            let [old_places, new_places] = [&places[0][..nodes.len()], &places[1][..nodes.len()]];
             let turned_from = facet_before.map_or(facet.normal, |of| of.normal);
             let spin = Spin::of(old_places, turned_from, new_places, facet.normal);
             let points = facet.places().flat_map(|place| self.friction.of_pair(place));

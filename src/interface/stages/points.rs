@@ -7,6 +7,8 @@
 //! Facets whose nodes all have sigma < 0 are closed, those without any are open: their integrals are sums over weights that are
 //! there. Only the others are visited point by point.
 
+use super::own::OwnAnswers;
+use super::part_weights::PartsAt;
 use super::residual::Residual;
 use super::sums::NodeSums;
 use crate::dual::{Coverage, FacetSums};
@@ -96,11 +98,17 @@ impl Points {
         surfaces.0.plane_normals(x.0, &mut self.planes)?;
         self.facets.clear();
         self.pairs.clear();
-        self.friction.points.clear();
-        self.friction.ends.clear();
+        self.friction.clear();
+        self.parts.clear();
+        self.acts.clear();
+        self.has_parts = surfaces.0.has_mid_nodes() || surfaces.1.has_mid_nodes();
         match given.history().weighted(surfaces) {
             Weighted::Facets(pairs) => {
                 pairs.chunk_by(|p, q| p.one == q.one).try_for_each(|pairs| self.settle_facet(given, pairs))?;
+            }
+            Weighted::Parents(_) if self.has_parts => {
+                let step: (&dyn Fn(usize) -> f64, bool) = (&|a| given.size(a), given.setup.has_point_friction());
+                self.settle_parts(surfaces, &given.setup.options, x, step)?;
             }
             Weighted::Parents(pairs) => {
                 pairs.chunk_by(|p, q| p.one == q.one).try_for_each(|pairs| self.settle_line(given, pairs))?;
@@ -112,12 +120,13 @@ impl Points {
     }
 
     /// rhat_A / rhat^0_A.
+    #[inline(never)]
     pub(super) fn settle_factors<const N: usize>(&mut self, given: Given<N>) -> Result<()> {
-        let factor = |a: usize| given.augmentation(a) * given.history().areas[a] / stabilising(given, a);
+        let factor = |a: usize| given.rhat(a) / stabilising(given, a);
         self.factors.clear();
         self.factors.store_all((0..given.nodes()).map(factor))?;
         self.rhat.clear();
-        self.rhat.store_all((0..given.nodes()).map(|a| given.augmentation(a) * given.history().areas[a]))
+        self.rhat.store_all((0..given.nodes()).map(|a| given.rhat(a)))
     }
 
     fn settle_facet<const N: usize>(&mut self, given: Given<N>, pairs: &[PairRecord]) -> Result<()> {
@@ -139,7 +148,7 @@ impl Points {
                 segment.as_ref().map_or_else(PairWeights::default, integrate)
             };
             sums.add(&whole, &[0.0; MAX_CORNERS]);
-            self.pairs.store(PointPair { two: pair.two, whole, dual: pair.weights })?;
+            self.pairs.store(PointPair { two: pair.two, whole, dual: pair.weights, parts: [0; 2] })?;
         }
         let nodes = one.facets[f].as_slice();
         let sizes = std::array::from_fn(|k| nodes.get(k).map_or(0.0, |&a| given.size(a)));
@@ -156,7 +165,9 @@ impl Points {
                 let (part, rule) = (parents.parts(f).start, given.setup.options.rule);
                 let (frame, surface) = (one.frame(part, x.0, &self.planes)?, two.analytic_at(x.1)?);
                 self.whole_over_surface(|to| {
-                    parents.over_surface(part, (&frame, x.0), (&surface, rule), |pair, x| pair.each_point(x, to))
+                    parents.over_surface(part, (&frame, x.0), (&surface, rule), |pair, x| {
+                        pair.each_point(x, &mut |point| to(point.overlap_point()))
+                    })
                 })
                 .map_err(one.at(part))?
             } else {
@@ -167,7 +178,8 @@ impl Points {
                 of_line_weights(&LineWeights::new(&own, &other, MultiplierSpace::Corner, measure))
             };
             add_mass(&mut mass, &whole);
-            self.pairs.store(PointPair { two: pair.two, whole, dual: of_parent_weights(&pair.weights) })?;
+            let dual = of_parent_weights(&pair.weights);
+            self.pairs.store(PointPair { two: pair.two, whole, dual, parts: [0; 2] })?;
         }
         let area: f64 = parents.areas(f, x.0, parents.space)?.iter().take(MAX_PARENT_NODES).sum();
         let covered = mass.iter().flatten().sum::<f64>();
@@ -217,13 +229,14 @@ impl Points {
     /// What each facet is at the nodes' sigma, with the weights of the closed parts of those that are cut. `active`: with weights of
     /// now, whose points move, a closed part is a region of its own (docs/formulation 16.8).
     fn close<const N: usize>(&mut self, given: Given<N>, active: Option<&Active>) -> Result<()> {
-        let Points { facets, pairs, planes, sigma, states, closed, friction, .. } = self;
+        let Points { facets, pairs, planes, sigma, states, closed, friction, parts, closed_acts, .. } = self;
         let (x, planes) = match active {
             Some(active) => ((&active.x1[..], &active.x2[..]), &active.normals),
             None => (given.weighted_at(), &*planes),
         };
         states.clear();
         closed.clear();
+        closed_acts.clear();
         memory::grow(states, facets.len())?;
         for facet in &*facets {
             let sigma = facet.of(sigma);
@@ -237,6 +250,16 @@ impl Points {
                 continue;
             }
             let of_pairs = &pairs[facet.places()];
+            if self.has_parts {
+                let (surfaces, rule) = (given.setup.surfaces(), given.setup.options.rule);
+                for pair in of_pairs {
+                    let at = PartsAt { surfaces, rule, x, planes };
+                    let weights = Points::close_part(at, (facet, &sigma), (pair, parts))?;
+                    closed.store(scaled(&weights.own, facet.fade))?;
+                    closed_acts.store(weights.all)?;
+                }
+                continue;
+            }
             if given.setup.mortar.analytic.is_some() {
                 for place in facet.places() {
                     closed.store(PairWeights::negative(&friction.points[friction.of_pair(place)], &sigma))?;
@@ -281,13 +304,14 @@ impl Points {
         &mut self,
         (given, active): (Given<N>, Option<&Active>),
         lambda: &[SVector<f64, N>],
-        sums: &[NodeSums],
+        (sums, own): (&[NodeSums], &OwnAnswers),
         responses: &mut [NodeResponse<N>],
     ) -> Result<()> {
         match active {
             Some(active) => self.settle_now(given, active)?,
             None => self.settle(given)?,
         }
+        self.give_way(given, own)?;
         self.multipliers.clear();
         self.multipliers.store_all(lambda.iter().map(|lambda| lambda[0]))?;
         memory::refill(&mut self.is_covered, false, lambda.len())?;
@@ -298,14 +322,17 @@ impl Points {
             let (normal, response) = (given.normal(a)?, &mut responses[a]);
             let gap = normal.dot(&sum.gap_now) / sum.coverage;
             self.is_covered[a] = true;
-            self.sigma[a] = lambda[a][0] + self.rhat[a] * gap;
+            self.sigma[a] = lambda[a][0] + self.rhat[a] * (gap + self.yields(a)[0]);
             (response.state, response.traction) = (State::Gap, Vec3::zeros());
             response.sigma = normal * self.sigma[a];
         }
         self.close(given, active)?;
         self.sum_up(lambda)?;
+        if self.has_parts {
+            self.push_parts()?;
+        }
         for (a, response) in responses.iter_mut().enumerate().filter(|(a, _)| self.is_covered[*a]) {
-            response.row = SVector::from_element(self.rows[a] / self.rhat[a]);
+            response.row = SVector::from_element(self.rows[a] / given.rhat(a));
             self.tractions[a] /= sums[a].coverage;
             self.shares[a] /= sums[a].coverage;
             if self.shares[a] > 0.0 {
@@ -351,6 +378,11 @@ impl Points {
     ) -> Result<()> {
         let two = &given.setup.mortar;
         r.clear(given.setup.surfaces())?;
+        if self.has_parts {
+            self.add_pushes(given.setup.surfaces(), (&mut r.nonmortar, &mut r.mortar));
+            r.take_rows(given, responses);
+            return Ok(());
+        }
         for (at, facet) in self.facets.iter().enumerate() {
             if self.states[at] == Closed::Nothing {
                 continue;

@@ -49,7 +49,7 @@ impl Points {
         for (pair, place) in pairs.iter().zip(first..) {
             let whole = *active.integrated(place);
             sums.add(&whole, &[0.0; MAX_CORNERS]);
-            self.pairs.store(PointPair { two: pair.two, whole, dual: pair.weights })?;
+            self.pairs.store(PointPair { two: pair.two, whole, dual: pair.weights, parts: [0; 2] })?;
         }
         let nodes = one.facets[f].as_slice();
         let sizes = std::array::from_fn(|k| nodes.get(k).map_or(0.0, |&a| given.size(a)));
@@ -69,7 +69,7 @@ impl Points {
         for (pair, place) in pairs.iter().zip(first..) {
             let (whole, dual) = (of_parent_weights(active.integrated_parent(place)), of_parent_weights(&pair.weights));
             add_mass(&mut mass, &whole);
-            self.pairs.store(PointPair { two: pair.two, whole, dual })?;
+            self.pairs.store(PointPair { two: pair.two, whole, dual, parts: [0; 2] })?;
         }
         let (nodes, x) = (one.host_nodes(f), &given.history().x1);
         let length = (x[nodes[1]] - x[nodes[0]]).norm();

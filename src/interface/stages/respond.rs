@@ -66,10 +66,10 @@ pub fn respond<const N: usize>(
     }
     if given.setup.decides_at_points() {
         if N == 3 {
-            points.respond_with_friction(given, lambda, sums, responses)?;
+            points.respond_with_friction(given, lambda, (sums, own), responses)?;
             memory::recopy(&mut own.states, &points.friction.states)?;
         } else {
-            points.respond((given, active), lambda, sums, responses)?;
+            points.respond((given, active), lambda, (sums, own), responses)?;
         }
     }
     for (a, response) in responses.iter().enumerate() {

@@ -6,13 +6,14 @@ use crate::interface::data::lists::Lists;
 use crate::interface::data::points::Points;
 use crate::interface::data::setup::Setup;
 use crate::memory::Store;
+use std::ops::Range;
 
 /// The facets around each node, with the mortar nodes of each.
 #[derive(Debug, Default)]
 pub struct Around {
     pub facets: Vec<usize>,
-    /// Where the points have each facet.
-    at: Vec<Option<u32>>,
+    /// Where the points have each facet, or its parts.
+    at: Vec<[usize; 2]>,
     mortar: Lists,
     /// By non-mortar nodes, and by mortar nodes.
     of_node: Lists,
@@ -26,12 +27,13 @@ impl Around {
     pub fn of<const N: usize>(setup: &Setup<N>, pairs: Pairs, points: Option<&Points>) -> Result<Around> {
         let ((one, two), moves) = (setup.surfaces(), setup.mortar_moves());
         let (mut all, mut walk, mut of_facet) = (Around::default(), Walk::through(pairs, 0..usize::MAX), Vec::new());
-        let mut ahead = points.map_or(&[][..], |points| &points.facets).iter().enumerate().peekable();
+        let (of_points, mut end) = (points.map_or(&[][..], |points| &points.facets), 0);
         all.mortar.first.store(0)?;
         while let Some(f) = walk.next(&mut of_facet)? {
-            while ahead.next_if(|(_, facet)| facet.one < f).is_some() {}
+            let first = end + of_points[end..].iter().take_while(|facet| one.host_facet(facet.one) < f).count();
+            end = first + of_points[first..].iter().take_while(|facet| one.host_facet(facet.one) == f).count();
             all.facets.store(f)?;
-            all.at.store(ahead.peek().filter(|(_, facet)| facet.one == f).map(|(at, _)| *at as u32))?;
+            all.at.store([first, end])?;
             let first = all.mortar.all.len();
             for &c in of_facet.iter().filter(|_| moves).flat_map(|pair| two.host_nodes(pair.two)) {
                 if !all.mortar.all[first..].contains(&(c as u32)) {
@@ -73,9 +75,9 @@ impl Around {
         self.mortar.get(k)
     }
 
-    /// Where the points have the k-th facet.
+    /// Where the points have the k-th facet, or its parts.
     #[inline]
-    pub fn at(&self, k: usize) -> Option<usize> {
-        self.at[k].map(|at| at as usize)
+    pub fn at(&self, k: usize) -> Range<usize> {
+        self.at[k][0]..self.at[k][1]
     }
 }

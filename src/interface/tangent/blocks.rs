@@ -252,6 +252,7 @@ pub fn of_nodes<const N: usize>(
         let numbers = numbers.map(|n| PointNumbers {
             points: &n.responses.points,
             sums: n.sums,
+            parents: &given.history().parents,
             normals,
             active: n.active,
             turns: turns.map(|_| turn),

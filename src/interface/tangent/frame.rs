@@ -176,7 +176,7 @@ impl FacetPair<'_> {
             return Ok(None);
         }
         if one.parents.is_some() {
-            return one.parent_basis(pair.one, &active.x1, std::iter::once(active.integrated_parent(pair.place)));
+            return one.parent_basis(pair.one, &active.x1, &mut std::iter::once(active.integrated_parent(pair.place)));
         }
         let frame = one.frame(pair.one, &active.x1, &active.normals)?;
         Ok(dual_basis(one, pair.one, (&frame, &[]), &active.integrated[pair.place..pair.place + 1])?.1)

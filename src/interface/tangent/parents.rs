@@ -151,8 +151,9 @@ impl Sides<'_> {
         let mut x1 = at.x.map(|x| x - base);
         let mut basis = None;
         if self.options.basis == MultiplierBasis::Dual {
-            let of_pairs = pairs.iter().filter(|pair| pair.is_active).map(|pair| active.integrated_parent(pair.place));
-            basis = one.parent_basis(f, &active.x1, of_pairs)?;
+            let mut of_pairs =
+                pairs.iter().filter(|pair| pair.is_active).map(|pair| active.integrated_parent(pair.place));
+            basis = one.parent_basis(f, &active.x1, &mut of_pairs)?;
             if basis.is_none() {
                 return Ok(0); // it has faded out
             }

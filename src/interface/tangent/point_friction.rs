@@ -10,12 +10,11 @@ use super::slopes::{Along, Slopes};
 use super::union::Pairs;
 use crate::error::Result;
 use crate::geometry::Mat3;
-use crate::interface::data::point_friction::FrictionNode;
-use crate::interface::data::points::{Closed, PointFacet};
+use crate::interface::data::point_friction::{FrictionNode, PointFriction};
+use crate::interface::data::points::{Closed, PointFacet, Points};
 use crate::interface::pairing::given::Given;
-use crate::law::Projected;
-use crate::mortar::OverlapPoint;
 use crate::shape::MAX_CORNERS;
+use std::ops::Range;
 
 /// What a node has of one A.
 #[derive(Clone, Copy, Debug, Default)]
@@ -31,10 +30,12 @@ struct Found {
 /// By the nodes of a facet: int N_A N H.
 type OfFacet = [Mat3; MAX_CORNERS];
 
-/// Adds those of these points; N is what `of` gives for a node.
-fn add(sums: &mut OfFacet, points: (&[OverlapPoint], &[Projected]), of: impl Fn(&OverlapPoint) -> f64) {
-    for (point, answer) in points.0.iter().zip(points.1) {
-        let h = answer.derivative * (point.weight * of(point));
+/// Adds those of these points; N: which of which functions of a point it is.
+#[inline(never)]
+fn add(sums: &mut OfFacet, friction: &PointFriction, points: Range<usize>, (which, node): (usize, usize)) {
+    for q in points {
+        let (point, answer) = (&friction.points[q], &friction.answers[q]);
+        let h = answer.derivative * (point.weight * friction.functions(q)[which][node]);
         sums.iter_mut().zip(&point.own).for_each(|(sum, n)| *sum += h * *n);
     }
 }
@@ -47,31 +48,37 @@ fn of_sigma(sum: &Mat3, facet: &PointFacet, node: &FrictionNode) -> Mat3 {
 
 impl<const N: usize> point_rows::Found<N> for Found {
     fn add_own(rows: &mut Rows<Self, N>, i: usize, k: usize, PointNumbers { points, .. }: &PointNumbers) -> Result<()> {
-        let Some(at) = rows.around.at(k) else { return Ok(()) };
-        let (facet, friction, mut sums) = (&points.facets[at], &points.friction, OfFacet::default());
-        let Some(row) = facet.nodes().iter().position(|&b| b == i) else { return Ok(()) };
-        let (is_open, is_covered) = (points.states[at] == Closed::Nothing, points.is_covered[i]);
-        if !is_open {
-            add(&mut sums, friction.answered(facet.places()), |point| point.own[row]);
-        }
-        let own = &friction.nodes[i];
-        for (l, &a) in facet.nodes().iter().enumerate() {
-            if !rows.given.setup.nonmortar.has_row(a) {
-                continue;
+        let (friction, one) = (&points.friction, &rows.given.setup.nonmortar);
+        let place = one.host_nodes(rows.around.facets[k]).iter().position(|&b| b == i);
+        let Some(place) = place else { return Ok(()) };
+        for at in rows.around.at(k) {
+            let (facet, is_open) = (&points.facets[at], points.states[at] == Closed::Nothing);
+            let (mut sums, of_points) = (OfFacet::default(), friction.of_pairs(facet.places()));
+            let row = facet.nodes().iter().position(|&b| b == i).filter(|_| points.is_covered[i]);
+            if !is_open {
+                add(&mut sums, friction, of_points.clone(), (0, place));
             }
-            let (found, node) = (rows.at(a)?, &friction.nodes[a]);
-            let normal = own.normal * node.normal.transpose();
-            if is_covered {
-                let left = facet.mass[row][l] + points.factors[i] * facet.stabilisation[row][l];
-                found.left += (normal + own.along * node.along) * left;
+            // The function of a multiplier is that of its node but where facets have parts.
+            let mut of_row = sums;
+            if let (Some(row), true, false) = (row, points.has_parts, is_open) {
+                of_row = OfFacet::default();
+                add(&mut of_row, friction, of_points, (2, row));
             }
-            if points.is_covered[a] && !is_open {
-                let force = of_sigma(&sums[l], facet, node);
-                found.force += force;
-                if is_covered {
-                    let e = facet.normal;
-                    let pressure = e.dot(&(sums[l] * e));
-                    found.row += normal * pressure + own.along * (force - e * node.normal.transpose() * pressure);
+            let own = &friction.nodes[i];
+            for (l, &a) in facet.nodes().iter().enumerate().filter(|(_, a)| one.has_row(**a)) {
+                let (found, node) = (rows.at(a)?, &friction.nodes[a]);
+                let normal = own.normal * node.normal.transpose();
+                if let Some(row) = row {
+                    let left = facet.mass[row][l] + points.factors[i] * facet.stabilisation[row][l];
+                    found.left += (normal + own.along * node.along) * left;
+                }
+                if points.is_covered[a] && !is_open {
+                    found.force += of_sigma(&sums[l], facet, node);
+                    if row.is_some() {
+                        let (e, force) = (facet.normal, of_sigma(&of_row[l], facet, node));
+                        let pressure = e.dot(&(of_row[l] * e));
+                        found.row += normal * pressure + own.along * (force - e * node.normal.transpose() * pressure);
+                    }
                 }
             }
         }
@@ -85,24 +92,26 @@ impl<const N: usize> point_rows::Found<N> for Found {
         PointNumbers { points, .. }: &PointNumbers,
     ) -> Result<()> {
         let (one, two) = rows.given.setup.surfaces();
-        let Some(at) = rows.around.at(k).filter(|at| points.states[*at] != Closed::Nothing) else { return Ok(()) };
-        let (facet, friction, mut sums) = (&points.facets[at], &points.friction, OfFacet::default());
-        let mut is_there = false;
-        for place in facet.places() {
-            let Some(column) = two.host_nodes(points.pairs[place].two).iter().position(|&d| d == c) else { continue };
-            is_there = true;
-            add(&mut sums, friction.answered(place..place + 1), |point| point.other[column]);
-        }
-        for (&a, sum) in facet.nodes().iter().zip(&sums).filter(|_| is_there) {
-            if points.is_covered[a] && one.has_row(a) {
-                rows.at(a)?.force -= of_sigma(sum, facet, &friction.nodes[a]);
+        for at in rows.around.at(k).filter(|at| points.states[*at] != Closed::Nothing) {
+            let (facet, friction, mut sums) = (&points.facets[at], &points.friction, OfFacet::default());
+            let mut is_there = false;
+            for place in facet.places() {
+                let nodes = two.host_nodes(points.pairs[place].two);
+                let Some(column) = nodes.iter().position(|&d| d == c) else { continue };
+                is_there = true;
+                add(&mut sums, friction, friction.of_pair(place), (1, column));
+            }
+            for (&a, sum) in facet.nodes().iter().zip(&sums).filter(|_| is_there) {
+                if points.is_covered[a] && one.has_row(a) {
+                    rows.at(a)?.force -= of_sigma(sum, facet, &friction.nodes[a]);
+                }
             }
         }
         Ok(())
     }
 
-    fn force(&self) -> (RowBlock, RowBlock) {
-        (three_rows(&self.force), three_rows(&self.force))
+    fn force(&self, points: Option<&Points>, a: usize) -> (RowBlock, RowBlock) {
+        (three_rows(&self.force), three_rows(&by_lambda(&self.force, points, a)))
     }
 
     fn emit_own(rows: &mut Rows<Self, N>, i: usize, emitter: &mut Emitter<N>) -> Result<()> {
@@ -114,8 +123,8 @@ impl<const N: usize> point_rows::Found<N> for Found {
         }
         let per_gap = rows.per_gap(i);
         let scale = per_gap / rows.given.history().areas[i];
-        rows.sum_up::<FORCES>(|Found { row, left, .. }| {
-            (three_rows(&(row * scale)), three_rows(&((row - left) * scale)))
+        rows.sum_up::<FORCES>(|Found { row, left, .. }, points, a| {
+            (three_rows(&(row * scale)), three_rows(&((by_lambda(row, points, a) - left) * scale)))
         })?;
         if let Some(numbers) = rows.numbers {
             let free = if numbers.points.is_covered[i] { rows.given.setup.nodes.free[i] } else { Mat3::zeros() };
@@ -125,6 +134,11 @@ impl<const N: usize> point_rows::Found<N> for Found {
         emitter.taker.sums(Place::Multiplier(i), &rows.sums.blocks(0));
         Ok(())
     }
+}
+
+/// By lambda_A what is this by sigma_A.
+fn by_lambda(of: &Mat3, points: Option<&Points>, a: usize) -> Mat3 {
+    points.filter(|points| !points.yields.is_empty()).map_or(*of, |points| of + of * points.friction.nodes[a].yields)
 }
 
 /// Its rows.
@@ -140,6 +154,7 @@ pub fn blocks<const N: usize>(
 ) -> Result<()> {
     let (surfaces, moves) = (given.setup.surfaces(), given.setup.mortar_moves());
     let around = Around::of(given.setup, pairs, numbers.map(|numbers| numbers.points))?;
-    let slopes = Slopes::of((surfaces, &around, moves, false), numbers.map(|n| (n, Along::All)))?;
+    let own = surfaces.0.has_mid_nodes();
+    let slopes = Slopes::of((surfaces, &around, moves, own), numbers.map(|n| (n, Along::All)))?;
     point_rows::emit::<Found, N>(given, (&around, &slopes), numbers, emitter)
 }

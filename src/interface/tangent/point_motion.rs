@@ -206,8 +206,8 @@ impl Table {
         (at, mortar): (usize, &[u32]),
     ) -> Result<Option<Whole>> {
         let ((one, two), facet) = (given.setup.surfaces(), &points.facets[at]);
-        let integrated = facet.places().map(|place| active.integrated_parent(place));
-        let Some(basis) = one.parent_basis(facet.one, &active.x1, integrated)? else { return Ok(None) };
+        let mut integrated = facet.places().map(|place| active.integrated_parent(place));
+        let Some(basis) = one.parent_basis(facet.one, &active.x1, &mut integrated)? else { return Ok(None) };
         let (x, e) = ((&active.x1[..], &active.x2[..]), -facet.normal);
         let line = |place: usize| line_pair(given, x, (facet.one, points.pairs[place].two));
         let above = |own: &LineFacet, other: &LineFacet| other.x.map(|x| e.xy().dot(&(x - own.x[0])));
@@ -376,7 +376,7 @@ impl Table {
         let times = |m: &[OfCorners; MAX_CORNERS], k: usize| (0..MAX_CORNERS).map(|l| m[k][l] * lambda[l]).sum::<f64>();
         let covered: f64 = facet.mass.as_flattened().iter().sum();
         for (k, &b) in facet.nodes().iter().enumerate().filter(|(_, b)| one.has_row(**b) && points.is_covered[**b]) {
-            let scale = given.row_scale(b) / points.rhat[b];
+            let scale = given.row_scale(b) / given.rhat(b);
             let (smooth, mass) = (points.factors[b] * times(&facet.stabilisation, k) / covered, times(&facet.mass, k));
             let block = |column: usize| {
                 std::array::from_fn(|j| {

@@ -8,6 +8,7 @@ use super::point_numbers::PointNumbers;
 use super::row_sums::{Acting, RowSums};
 use super::slopes::Slopes;
 use crate::error::Result;
+use crate::interface::data::points::Points;
 use crate::interface::pairing::given::Given;
 use crate::memory::Store;
 use nalgebra::SMatrix;
@@ -24,7 +25,7 @@ pub trait Found<const N: usize>: Copy + Default {
     fn add_mortar(rows: &mut Rows<Self, N>, c: usize, k: usize, numbers: &PointNumbers) -> Result<()>;
 
     /// d force / d sigma_A, in each lane what multiplies that of d sigma_A / dx; and d force / d lambda_A.
-    fn force(&self) -> (RowBlock, RowBlock);
+    fn force(&self, points: Option<&Points>, a: usize) -> (RowBlock, RowBlock);
 
     /// Gives the rows of a non-mortar node away, of which all is found.
     fn emit_own(rows: &mut Rows<Self, N>, i: usize, emitter: &mut Emitter<N>) -> Result<()>;
@@ -74,11 +75,15 @@ impl<T: Found<N>, const N: usize> Rows<'_, T, N> {
     }
 
     /// Sums the first R rows up, from d R / d sigma_A and d R / d lambda_A of each A; gives whether anything acts.
-    pub fn sum_up<const R: usize>(&mut self, of: impl Fn(&T) -> (RowBlock, RowBlock)) -> Result<bool> {
+    pub fn sum_up<const R: usize>(
+        &mut self,
+        of: impl Fn(&T, Option<&Points>, usize) -> (RowBlock, RowBlock),
+    ) -> Result<bool> {
+        let points = self.numbers.map(|numbers| numbers.points);
         self.acting.clear();
         self.sums.clear();
         for (&a, found) in self.of.iter().zip(&self.found) {
-            let (by_sigma, by_lambda) = of(found);
+            let (by_sigma, by_lambda) = of(found, points, a);
             *self.sums.of_multiplier(a)? = by_lambda;
             if by_sigma != RowBlock::default() {
                 self.acting.store((a, by_sigma))?;

@@ -11,7 +11,7 @@ use super::point_rows::{self, Rows};
 use super::slopes::{Along, Slopes};
 use super::union::Pairs;
 use crate::error::Result;
-use crate::interface::data::points::{Closed, OfNodes};
+use crate::interface::data::points::{Closed, OfNodes, Points};
 use crate::interface::pairing::given::Given;
 use crate::shape::MAX_CORNERS;
 
@@ -26,10 +26,11 @@ struct Found {
 
 impl Found {
     /// By sigma_A and by lambda_A, with this factor of the multiplier's row.
-    fn by(&self, scale: f64) -> (RowBlock, RowBlock) {
+    fn by(&self, scale: f64, points: Option<&Points>, a: usize) -> (RowBlock, RowBlock) {
         let mut acts = self.acts;
         acts[3] *= scale;
-        let mut by_lambda = acts;
+        let by = points.map_or(1.0, |points| points.yields(a)[1]);
+        let mut by_lambda = acts.map(|acts| acts * by);
         by_lambda[3] -= scale * self.left;
         (acts.map(|by| [by; 4]), by_lambda.map(|by| [by, 0.0, 0.0, 0.0]))
     }
@@ -37,23 +38,34 @@ impl Found {
 
 impl<const N: usize> point_rows::Found<N> for Found {
     fn add_own(rows: &mut Rows<Self, N>, i: usize, k: usize, PointNumbers { points, .. }: &PointNumbers) -> Result<()> {
-        let Some(at) = rows.around.at(k) else { return Ok(()) };
-        let (facet, is_covered) = (&points.facets[at], points.is_covered[i]);
-        let Some(row) = facet.nodes().iter().position(|&b| b == i) else { return Ok(()) };
-        let (is_open, mut room) = (points.states[at] == Closed::Nothing, OfNodes::default());
-        let mass = points.states[at].mass(facet, &points.closed, &mut room);
-        for (l, &a) in facet.nodes().iter().enumerate() {
-            if !rows.given.setup.nonmortar.has_row(a) {
-                continue;
+        for at in rows.around.at(k) {
+            let (facet, mut room, mut all) = (&points.facets[at], OfNodes::default(), [0.0; MAX_CORNERS]);
+            let row = facet.nodes().iter().position(|&b| b == i);
+            let row_if_covered = row.filter(|_| points.is_covered[i]);
+            let is_open = points.states[at] == Closed::Nothing;
+            let mass = points.states[at].mass(facet, &points.closed, &mut room);
+            let one = &rows.given.setup.nonmortar;
+            match (points.has_parts, row) {
+                (false, Some(row)) => (0..MAX_CORNERS).for_each(|l| all[l] = mass[l][row]),
+                (false, None) => continue,
+                (true, _) => {
+                    let place = one.host_nodes(rows.around.facets[k]).iter().position(|&b| b == i).unwrap_or_default();
+                    let acts = facet.places().filter_map(|pair| points.acts(at, pair));
+                    acts.for_each(|acts| {
+                        all.iter_mut().zip(&acts.ab).for_each(|(sum, n)| *sum += facet.fade * n[place])
+                    });
+                }
             }
-            let found = rows.at(a)?;
-            if is_covered {
-                found.left += facet.mass[row][l] + points.factors[i] * facet.stabilisation[row][l];
-            }
-            if points.is_covered[a] && !is_open {
-                let force = facet.normal * mass[l][row];
-                (0..3).for_each(|n| found.acts[n] += force[n]);
-                found.acts[3] += if is_covered { mass[row][l] } else { 0.0 };
+            for (l, &a) in facet.nodes().iter().enumerate().filter(|(_, a)| one.has_row(**a)) {
+                let found = rows.at(a)?;
+                if let Some(row) = row_if_covered {
+                    found.left += facet.mass[row][l] + points.factors[i] * facet.stabilisation[row][l];
+                }
+                if points.is_covered[a] && !is_open {
+                    let force = facet.normal * all[l];
+                    (0..3).for_each(|n| found.acts[n] += force[n]);
+                    found.acts[3] += row_if_covered.map_or(0.0, |row| mass[row][l]);
+                }
             }
         }
         Ok(())
@@ -66,33 +78,37 @@ impl<const N: usize> point_rows::Found<N> for Found {
         PointNumbers { points, .. }: &PointNumbers,
     ) -> Result<()> {
         let (one, two) = rows.given.setup.surfaces();
-        let Some(at) = rows.around.at(k) else { return Ok(()) };
-        let facet = &points.facets[at];
-        let (mut weights, mut is_there) = ([0.0; MAX_CORNERS], false);
-        for pair in facet.places() {
-            let Some(closed) = points.closed(at, pair) else { return Ok(()) };
-            if let Some(column) = two.host_nodes(points.pairs[pair].two).iter().position(|&d| d == c) {
-                (0..MAX_CORNERS).for_each(|l| weights[l] += closed.ac[l][column]);
-                is_there = true;
+        for at in rows.around.at(k) {
+            let facet = &points.facets[at];
+            let (mut weights, mut is_there) = ([0.0; MAX_CORNERS], false);
+            for pair in facet.places() {
+                let Some(closed) = points.closed(at, pair) else { break };
+                if let Some(column) = two.host_nodes(points.pairs[pair].two).iter().position(|&d| d == c) {
+                    match points.acts(at, pair) {
+                        Some(acts) => (0..MAX_CORNERS).for_each(|l| weights[l] += facet.fade * acts.ac[l][column]),
+                        None => (0..MAX_CORNERS).for_each(|l| weights[l] += closed.ac[l][column]),
+                    }
+                    is_there = true;
+                }
             }
-        }
-        for (&a, n) in facet.nodes().iter().zip(weights).filter(|_| is_there) {
-            if points.is_covered[a] && one.has_row(a) {
-                let (found, force) = (rows.at(a)?, facet.normal * n);
-                (0..3).for_each(|i| found.acts[i] -= force[i]);
+            for (&a, n) in facet.nodes().iter().zip(weights).filter(|_| is_there) {
+                if points.is_covered[a] && one.has_row(a) {
+                    let (found, force) = (rows.at(a)?, facet.normal * n);
+                    (0..3).for_each(|i| found.acts[i] -= force[i]);
+                }
             }
         }
         Ok(())
     }
 
-    fn force(&self) -> (RowBlock, RowBlock) {
-        self.by(0.0)
+    fn force(&self, points: Option<&Points>, a: usize) -> (RowBlock, RowBlock) {
+        self.by(0.0, points, a)
     }
 
     fn emit_own(rows: &mut Rows<Self, N>, i: usize, emitter: &mut Emitter<N>) -> Result<()> {
         let (per_gap, has_row) = (rows.per_gap(i), rows.given.setup.nonmortar.has_row(i));
         let scale = rows.given.row_scale(i) / (rows.given.augmentation(i) * rows.given.history().areas[i]);
-        let acts = rows.sum_up::<4>(|found| found.by(scale))?;
+        let acts = rows.sum_up::<4>(|found, points, a| found.by(scale, points, a))?;
         if has_row && rows.numbers.is_some_and(|numbers| !numbers.points.is_covered[i]) {
             rows.sums.of_multiplier(i)?[3][0] = -per_gap;
         }
@@ -118,7 +134,7 @@ pub fn blocks<const N: usize>(
         Some(numbers) => Some(of_facets(given, numbers, &around, emitter)?),
         None => None,
     };
-    let own = given.setup.options.differentiates_weights();
+    let own = given.setup.options.differentiates_weights() || given.setup.nonmortar.has_mid_nodes();
     let slopes = Slopes::of((surfaces, &around, moves, own), numbers.map(|n| (n, Along::Normals(motions.as_ref()))))?;
     point_rows::emit::<Found, N>(given, (&around, &slopes), numbers, emitter)
 }

@@ -119,14 +119,34 @@ impl Finder<'_> {
     /// With weights that are held, along this direction.
     fn held(
         &mut self,
-        ((one, two), around, moves, _): Sides,
+        ((one, two), around, moves, has_mid_nodes): Sides,
         a: usize,
-        PointNumbers { points, sums, .. }: &PointNumbers,
+        PointNumbers { points, sums, parents, .. }: &PointNumbers,
         direction: Vec3,
     ) -> Result<()> {
         let along = direction * points.rhat[a];
-        let own = self.place(a)?;
-        for facet in around.around(a).iter().filter_map(|&k| around.at(k as usize)).map(|at| &points.facets[at]) {
+        let (own, mut diagonal) = (self.place(a)?, 0.0);
+        for f in around.around(a).iter().map(|&k| around.facets[k as usize]).filter(|_| points.has_parts) {
+            let nodes = one.host_nodes(f);
+            let Some(l) = nodes.iter().position(|&b| b == a) else { continue };
+            let first = parents.partition_point(|pair| pair.one < f);
+            for pair in parents[first..].iter().take_while(|pair| pair.one == f) {
+                for (&b, n) in nodes.iter().zip(&pair.weights.ab[l]).filter(|_| has_mid_nodes) {
+                    if b == a {
+                        diagonal += n;
+                    } else {
+                        let place = self.place(b)?;
+                        self.of.slopes[place][0] += n;
+                    }
+                }
+                for (&c, n) in two.host_nodes(pair.two).iter().zip(&pair.weights.ac[l]).filter(|_| moves) {
+                    let place = self.place(one.len() + c)?;
+                    self.of.slopes[place][0] -= n;
+                }
+            }
+        }
+        let of_points = around.around(a).iter().flat_map(|&k| around.at(k as usize)).filter(|_| !points.has_parts);
+        for facet in of_points.map(|at| &points.facets[at]) {
             let Some(l) = facet.nodes().iter().position(|&b| b == a) else { continue };
             for pair in points.pairs[facet.places()].iter().filter(|_| moves) {
                 for (&c, n) in two.host_nodes(pair.two).iter().zip(&pair.dual.ac[l]) {
@@ -135,8 +155,8 @@ impl Finder<'_> {
                 }
             }
         }
-        self.of.slopes[own] = lanes(along);
         let other = along / sums[a].coverage;
+        self.of.slopes[own] = lanes(if has_mid_nodes { other * diagonal } else { along });
         self.of.slopes[own + 1..].iter_mut().for_each(|slope| *slope = lanes(other * slope[0]));
         Ok(())
     }

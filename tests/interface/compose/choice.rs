@@ -180,6 +180,7 @@ impl Choice {
             (Feature::Friction, !tied && !self.is("law", "none")),
             (Feature::Tied, tied),
             (Feature::Points, points),
+            (Feature::NodesDecide, !points),
             (Feature::ElementPoints, !self.is("integration", "segments")),
             (Feature::FrozenTangent, self.is_current() && self.is("tangent", "frozen_weights")),
             (Feature::FrozenNormals, self.is("tangent", "frozen_normals")),
@@ -230,8 +231,7 @@ impl Choice {
         call(Asked::Tangent, self.is("ranks", "sums") && !self.is_condensed(), &[Feature::Sums, Feature::SumsTangent]);
         call(Asked::Condensed, self.is_condensed(), &[Feature::Condensed]);
         call(Asked::InPlace, self.is("system", "inplace"), &[Feature::Condensed, Feature::InPlace]);
-        call(Asked::Heat, !self.is("heat", "no"), &[Feature::Heat]);
-        call(Asked::HeatTangent, motion, &[Feature::Heat, Feature::HeatMotion]);
+        call(Asked::HeatTangent, motion, &[Feature::HeatMotion]);
         call(Asked::Derivatives, !self.is("derivatives", "no"), &[Feature::Derivatives]);
         call(Asked::SetCommitted, self.is("restart", "committed"), &[Feature::NodeHistory]);
         steps

@@ -32,7 +32,7 @@ const PLACES: [(&str, &str, Feature); 21] = [
     ("interface.rs", "pub unsafe extern \"C\" fn stickslip_interface_set_committed(", Feature::NodeHistory),
     ("condensed.rs", "pub unsafe extern \"C\" fn stickslip_interface_condensed_multipliers(", Feature::Condensed),
     ("condensed.rs", "pub unsafe extern \"C\" fn stickslip_interface_condensed_csr(", Feature::InPlace),
-    ("heat.rs", "pub unsafe extern \"C\" fn stickslip_interface_heat(", Feature::Heat),
+    ("heat.rs", "pub unsafe extern \"C\" fn stickslip_interface_heat_tangent_coo(", Feature::HeatMotion),
 ];
 
 fn others(row: &Row, feature: Feature) -> String {
