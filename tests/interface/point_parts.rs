@@ -127,7 +127,7 @@ fn tangents_of_lines_are_those_of_differences() {
                 let smooth = moved_lines::<1>(&by_points(space, weights, 0.0), nodes, measure, seed).difference_error();
                 let rough = moved_lines::<3>(&by_points(space, weights, 0.3), nodes, measure, seed).difference_error();
                 assert!(
-                    smooth <= DIFFERENCES && rough <= DIFFERENCES_OF_CONES,
+                    smooth <= DIFFERENCES && rough <= DIFFERENCES,
                     "{space:?} {weights:?} {nodes:?}: {smooth:e} {rough:e}"
                 );
             }
