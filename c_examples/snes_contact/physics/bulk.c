@@ -169,9 +169,10 @@ static PetscErrorCode evaluate(const Physics *physics, PetscInt c, const View *v
   CellStep      of_cell;
   PetscFunctionBegin;
   cell_displacements(physics, c, view->u, u_cell);
-  laid_take(physics, c, u_cell);
   if (!view->step || !element.material->law->finite) {
-    PetscCall(cell_forces(&element, u_cell, f, K, inverted));
+    cell_displacements(physics, c, view->u, from);
+    laid_take(physics, c, from); /* rounding is of all that it has moved */
+    PetscCall(cell_forces(&element, from, f, K, inverted));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   cell_displacements(physics, c, view->from, from);
