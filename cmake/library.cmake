@@ -38,12 +38,12 @@ set(remapped "build.rustflags=['--remap-path-prefix=${cargo_home}=/cargo', '--re
 
 # What the library is compiled with so that it is small. Kernels are marked to be inlined and written with four lanes: they stay as they
 # are, to the last bit, and so does everything else. A debug build inlines next to nothing anyhow.
-# - What is not marked is inlined where its body is small, at 30: a tenth less, for two to three per cent more instructions.
-# - What is marked `#[inline]`, as much of the standard library is, and what is called in loops is inlined up to 120 and 100 instead of 325 and
+# - What is not marked is inlined where its body is small, at 26: a tenth less, for two to three per cent more instructions.
+# - What is marked `#[inline]`, as much of the standard library is, and what is called in loops is inlined up to 112 and 95 instead of 325 and
 #   525 of the compiler's measure. What stands between two blocks of a tangent would be slower so: it is marked `#[inline(always)]`.
 # - Loops whose length is known at run time alone are neither unrolled nor turned into lanes: outside of kernels they are short.
 set(small_library
-  -C llvm-args=-inline-threshold=30 -C llvm-args=-inlinehint-threshold=120 -C llvm-args=-locally-hot-callsite-threshold=100
+  -C llvm-args=-inline-threshold=26 -C llvm-args=-inlinehint-threshold=112 -C llvm-args=-locally-hot-callsite-threshold=95
   -C llvm-args=-unroll-runtime=false -C no-vectorize-loops)
 # Functions with the same code, as interfaces of one and of three multipliers a node often have, are kept once where the linker of rustc
 # can do so (lld, gold, mold).
