@@ -10,8 +10,8 @@ use nalgebra::SVector;
 use stickslip::error::Kind;
 use stickslip::geometry::{AnalyticShape, Vec3};
 use stickslip::interface::{
-    Contact, Decision, Form, Friction, Heat, Interface, MultiplierBasis, NO_EQUATION, NO_WEAK_COVERAGE, Normals,
-    Options, Scheme, Surface, Temperatures, Weights,
+    Contact, Form, Friction, Heat, Interface, MultiplierBasis, NO_EQUATION, NO_WEAK_COVERAGE, Normals, Options, Scheme,
+    Surface, Temperatures, Weights,
 };
 use stickslip::law::{Conductance, SlipMeasure};
 use stickslip::line::Measure;
@@ -473,19 +473,6 @@ fn what_has_no_heat_is_refused() {
     let one = grid(2, 2, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
     let (lambda, t1) = (vec![Vec3::zeros(); one.x.len()], vec![0.0; one.x.len()]);
     let two = grid(2, 2, [0.0, 0.0], [1.0, 1.0], 0.0, true, Cells::Quads);
-    let points = Options {
-        decision: Decision::Points(100.0),
-        friction: Friction::None,
-        basis: MultiplierBasis::Dual,
-        weights: Weights::Committed,
-        weak_coverage: NO_WEAK_COVERAGE,
-        mu: 0.0,
-        ..options()
-    };
-    let mut c = contact::<1>(&one, &two, false, points);
-    let (zeros, t2) = (vec![SVector::zeros(); one.x.len()], vec![0.0; two.x.len()]);
-    let at_points = Temperatures { sides: [&t1, &t2], conductance: &CONSTANT };
-    assert_eq!(c.heat([&one.x, &two.x], &zeros, at_points).unwrap_err().kind, Kind::Unsupported);
     let mut c: Interface = interface(&one, &two, options());
     let t2 = vec![0.0; two.x.len()];
     let t = Temperatures { sides: [&t1, &t2], conductance: &CONSTANT };
