@@ -186,7 +186,7 @@ def refused(verdicts, driver):
         ("into a tie", {}, "oil.into: 'seal' is tied", tied),
         ("on a rigid side", {"surface": "layer.xmin", "outlet": None}, "is a side of 'seal' and rigid", rigid | {"press": {"body": "die", "components": ["x", "y", "rz"]}}),
         ("without a pressure", {"pressure": None, "traction": [0, 1]}, "oil.into: only a `pressure` gets between surfaces"),
-        ("into nothing", {"into": "leak"}, "oil.into: 'leak' is no interface of two sides"),
+        ("into nothing", {"into": "leak"}, "oil.into: there is no interface 'leak'"),
         ("with an outlet alone", {"into": None}, "oil.outlet: it is of a pressure that gets between surfaces"),
         ("from a surface that is none", {"outlet": "die.top"}, "there is no surface 'die.top'"),
     ):

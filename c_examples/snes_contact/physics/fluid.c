@@ -4,7 +4,8 @@
  * already, and if at none of them more presses than the fluid does, surfaces and fluid together: they are open there, or the fluid forces itself
  * between them. Then it presses the whole face, as a pressure that follows its surface. The front stays while Newton's method works, so that the tangent is
  * that of such pressures. At a converged state the fluid goes anew from its source (fluid_advance), and the step is solved again until its front stays:
- * the first time in a step it may go back, then it goes on only. */
+ * the first time in a step it may go back, then it goes on only. What the two sides know of the pressure between them differs by their meshes. So a face that
+ * the fluid has come to and that stays closed at all of its corners is shut for the rest of the step: the other side may keep the fluid out. */
 #include "physics/fluid.h"
 
 /* Of the largest pressure of contact: less is an open place's rounding. */
@@ -12,10 +13,12 @@ static const PetscReal ROUNDING = 1e-10;
 /* By so much of the fluid's pressure surfaces may press each other where it is, and it stays, as long as its pressure does not fall: beside the front they
  * often do a little, and a front that goes back for that comes to rest elsewhere. A pressure that falls is followed at once. */
 static const PetscReal HOLDS = 0.5;
+/* A face that is under the fluid and presses by more than this part of it at all of its corners has not been opened. */
+static const PetscReal SHUT = 0.3;
 
 PetscBool fluid_presses(const Load *load, PetscInt k, const Face *face, const PetscScalar flags[])
 {
-  if (load->fluid->named[k]) return PETSC_FALSE; /* the load itself does */
+  if (load->fluid->named[k] || load->fluid->shut[k]) return PETSC_FALSE; /* named: the load itself does */
   for (PetscInt a = 0; a < cell_corners(face->kind); a++) {
     if (!(PetscRealPart(flags[face->dofs[a] + FLUID_REACHED]) > 0)) return PETSC_FALSE;
   }
@@ -44,7 +47,7 @@ PetscErrorCode fluid_create(Physics *physics, Load *load)
   PetscCall(plex_labelled(physics->mesh, "fluid", load->name, &fluid->n_faces, &fluid->faces));
   PetscCall(plex_labelled(physics->mesh, "outlet", load->name, &fluid->n_out, &fluid->out));
   PetscCallMPI(MPI_Allreduce(&fluid->n_out, &fluid->n_outlet_faces, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
-  PetscCall(PetscCalloc1(fluid->n_faces, &fluid->named));
+  PetscCall(PetscCalloc2(fluid->n_faces, &fluid->named, fluid->n_faces, &fluid->shut));
   for (PetscInt k = 0; k < fluid->n_faces; k++) {
     for (PetscInt j = 0; j < load->n_faces; j++)
       fluid->named[k] = (PetscBool)(fluid->named[k] || load->faces[j] == fluid->faces[k]);
@@ -74,7 +77,7 @@ PetscErrorCode fluid_destroy(Load *load)
   PetscCall(PetscFree(fluid->outlets));
   PetscCall(PetscFree(fluid->faces));
   PetscCall(PetscFree(fluid->out));
-  PetscCall(PetscFree(fluid->named));
+  PetscCall(PetscFree2(fluid->named, fluid->shut));
   PetscCall(VecDestroy(&fluid->start));
   PetscCall(VecDestroy(&fluid->reached));
   PetscCall(PetscFree(load->fluid));
@@ -95,6 +98,7 @@ static PetscErrorCode flood(Physics *physics, const Fluid *fluid, Vec pressure, 
     PetscCall(VecGetArray(flags, &at));
     for (PetscInt k = 0; k < fluid->n_faces; k++) {
       Face      face;
+      if (fluid->shut[k]) continue;
       PetscBool next = PETSC_FALSE, lets = PETSC_TRUE, all = PETSC_TRUE;
       PetscCall(face_look_at(physics, fluid->faces[k], &face));
       for (PetscInt a = 0; a < cell_corners(face.kind); a++) {
@@ -131,7 +135,10 @@ PetscErrorCode fluid_begin(Physics *physics)
 {
   PetscFunctionBegin;
   for (PetscInt l = 0; l < physics->n_loads; l++) {
-    if (physics->loads[l].fluid) PetscCall(VecCopy(physics->loads[l].fluid->start, physics->loads[l].fluid->reached));
+    Fluid *fluid = physics->loads[l].fluid;
+    if (!fluid) continue;
+    PetscCall(VecCopy(fluid->start, fluid->reached));
+    PetscCall(PetscArrayzero(fluid->shut, fluid->n_faces));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -231,6 +238,47 @@ static PetscErrorCode take(const Physics *physics, Fluid *fluid, Vec anew, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Shuts faces under the fluid that contact keeps closed; were there any? */
+static PetscErrorCode shut(Physics *physics, const Load *load, PetscReal now, Vec contact, Vec pressure, PetscBool *any)
+{
+  Fluid             *fluid = load->fluid;
+  const PetscScalar *p, *flags;
+  PetscFunctionBegin;
+  *any = PETSC_FALSE;
+  PetscCall(fluid_pressures(physics, fluid, contact, pressure));
+  PetscCall(VecGetArrayRead(pressure, &p));
+  PetscCall(VecGetArrayRead(fluid->reached, &flags));
+  for (PetscInt k = 0; k < fluid->n_faces; k++) {
+    Face      face;
+    PetscBool closed = PETSC_TRUE;
+    PetscCall(face_look_at(physics, fluid->faces[k], &face));
+    if (!fluid_presses(load, k, &face, flags)) continue;
+    for (PetscInt a = 0; a < cell_corners(face.kind); a++)
+      closed = (PetscBool)(closed && PetscRealPart(p[face.dofs[a]]) > SHUT * now);
+    if (closed) fluid->shut[k] = *any = PETSC_TRUE;
+  }
+  PetscCall(VecRestoreArrayRead(fluid->reached, &flags));
+  PetscCall(VecRestoreArrayRead(pressure, &p));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, any, 1, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Where the fluid would come to anew, with these forces on the vertices. */
+static PetscErrorCode go_anew(Physics *physics, const Load *load, PetscReal now, Vec forces, Vec pressure, Vec anew)
+{
+  Fluid    *fluid = load->fluid;
+  PetscReal largest;
+  PetscFunctionBegin;
+  PetscCall(fluid_pressures(physics, fluid, forces, pressure));
+  PetscCall(VecNorm(pressure, NORM_INFINITY, &largest));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
+  largest = now + ROUNDING * largest;
+  PetscCall(VecCopy(fluid->reached, anew));
+  PetscCall(dry(physics, anew));
+  PetscCall(flood(physics, fluid, pressure, largest, now < fluid->before ? largest : largest + HOLDS * now, anew));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode fluid_advance(Physics *physics, Vec contact, PetscBool first, PetscBool *moved)
 {
   PetscFunctionBegin;
@@ -239,8 +287,7 @@ PetscErrorCode fluid_advance(Physics *physics, Vec contact, PetscBool first, Pet
     const Load     *load  = &physics->loads[l];
     Fluid          *fluid = load->fluid;
     const PetscReal now   = PetscMax(0, load->pressure * curve_value(&load->curve, physics->t));
-    PetscReal       largest;
-    PetscBool       any;
+    PetscBool       any, closed = PETSC_FALSE;
     Vec             forces, pressure, anew;
     if (!fluid) continue;
     PetscCall(VecDuplicate(contact, &anew));
@@ -248,15 +295,14 @@ PetscErrorCode fluid_advance(Physics *physics, Vec contact, PetscBool first, Pet
     PetscCall(VecDuplicate(contact, &pressure));
     PetscCall(VecCopy(contact, forces));
     PetscCall(add_fluid(physics, load, now, forces));
-    PetscCall(fluid_pressures(physics, fluid, forces, pressure));
-    PetscCall(VecNorm(pressure, NORM_INFINITY, &largest));
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
-    largest = now + ROUNDING * largest;
-    PetscCall(VecCopy(fluid->reached, anew));
-    PetscCall(dry(physics, anew));
-    PetscCall(flood(physics, fluid, pressure, largest, now < fluid->before ? largest : largest + HOLDS * now, anew));
+    PetscCall(go_anew(physics, load, now, forces, pressure, anew));
     PetscCall(take(physics, fluid, anew, first, &any));
-    *moved      = (PetscBool)(*moved || any);
+    if (!any) PetscCall(shut(physics, load, now, contact, pressure, &closed));
+    if (closed) {
+      PetscCall(go_anew(physics, load, now, forces, pressure, anew));
+      PetscCall(take(physics, fluid, anew, PETSC_TRUE, &any));
+    }
+    *moved     = (PetscBool)(*moved || any || closed);
     fluid->now = now;
     PetscCall(VecDestroy(&anew));
     PetscCall(VecDestroy(&pressure));

@@ -12,6 +12,7 @@ struct Fluid {
   PetscInt        n_sides, n_outlets; /* of the interfaces; where the fluid must not come: until the mesh is distributed */
   const Surface **sides, **outlets;
   PetscInt        n_faces, *faces, n_out, *out; /* of all sides; of outlets */
+  PetscBool      *shut;         /* per face of a side: the fluid does not open it in this step */
   PetscBool      *named;        /* per face of a side: it is of the load's own surface, too, so that the load itself presses it */
   Vec             start, reached; /* FLUID_...: where it is when the step begins; now */
   PetscReal       before, now;    /* its pressure at t_n and now, where it is any */

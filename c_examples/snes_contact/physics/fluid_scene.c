@@ -55,6 +55,9 @@ PetscErrorCode fluid_read(Scene *scene, const Physics *physics, Load *load)
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   if (load->pressure == 0) scene_fail(scene, load->name, "into", "only a `pressure` gets between surfaces.");
+  if (load->pressure < 0) scene_fail(scene, load->name, "pressure", "what gets between surfaces (`into`) presses: it is positive.");
+  if (scene_has(scene, load->name, "follower") && !load->follows)
+    scene_fail(scene, load->name, "follower", "a pressure that gets between surfaces (`into`) follows them: leave this out.");
   load->follows = PETSC_TRUE;
   PetscCall(PetscNew(&fluid));
   load->fluid  = fluid;
@@ -63,7 +66,8 @@ PetscErrorCode fluid_read(Scene *scene, const Physics *physics, Load *load)
   for (PetscInt i = 0; i < n; i++) {
     for (int side = 0; side < 2; side++) {
       if (!scene_has(scene, into[i], sides[side]))
-        scene_fail(scene, load->name, "into", "'%s' is no interface of two sides: it has no `%s`.", into[i], sides[side]);
+        scene_fail(scene, load->name, "into", "there is no interface '%s' with a `%s` side; with `contact: all` no fluid gets between the bodies.",
+                   into[i], sides[side]);
       refuse_interface(scene, load->name, into[i]);
       before = fluid->n_sides;
       PetscCall(find(scene, physics, into[i], sides[side], &fluid->n_sides, &fluid->sides));
