@@ -1,4 +1,4 @@
-/* A pressure that gets between the surfaces of interfaces, as a fluid does (fluid.c, fluid_scene.c). */
+/* A pressure that gets between the surfaces of interfaces, as a fluid does (fluid.c, fluid_front.c, fluid_scene.c). */
 #ifndef SNES_CONTACT_FLUID_H
 #define SNES_CONTACT_FLUID_H
 #include "physics/physics.h"
@@ -40,6 +40,10 @@ PetscErrorCode fluid_begin(Physics *physics);
 PetscErrorCode fluid_advance(Physics *physics, Vec contact, PetscBool first, PetscBool *moved);
 PetscErrorCode fluid_accept(Physics *physics, PetscBool quiet);
 void           fluid_report(const Physics *physics, cJSON *json); /* per fluid */
+
+/* Of fluid.c, for its front: flags that any rank has; how much it presses between the surfaces, and whether it is at an outlet */
+PetscErrorCode fluid_share_flags(Physics *physics, Vec flags);
+PetscErrorCode fluid_measure(const Physics *physics, const Load *load);
 
 /* fluid_pressure.c: what presses the corners of the sides, as first component of `pressure`, at u_local; `forces`: of contact and fluid, shared.
  * A face at u_local, and the areas of its nodes as vectors outwards. */
