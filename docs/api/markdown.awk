@@ -1,5 +1,5 @@
 # The guides as Doxygen wants them. Headings get the labels that hosting sites derive from their text, with the file's
-# name before them, so that links to a heading work here too. Files outside docs are no pages: links to them become
+# name before them, and a letter before that, so that links to a heading work here too. Files outside docs are no pages: links to them become
 # their names. A link's text may have begun in the line before, so only `](target)` is looked at.
 function label(text) {
     text = tolower(text)
@@ -22,11 +22,11 @@ BEGIN {
 fenced { print; next }
 
 {
-    gsub(/\]\(#/, "](#" page "-")
+    gsub(/\]\(#/, "](#page-" page "-")
     while (match($0, /\]\([a-z0-9_\/]+\.md#/)) {
         target = substr($0, RSTART + 2, RLENGTH - 6)
         sub(/.*\//, "", target)
-        replace("](#" target "-")
+        replace("](#page-" target "-")
     }
     while (match($0, /\]\(\.\.\/[^)]*\)/)) replace("] (" substr($0, RSTART + 5, RLENGTH - 6) ")")
 }
@@ -34,7 +34,7 @@ fenced { print; next }
 /^##+ / {
     text = $0
     sub(/^#+ /, "", text)
-    $0 = $0 " {#" page "-" label(text) "}"
+    $0 = $0 " {#page-" page "-" label(text) "}"
 }
 
 { print }
