@@ -18,7 +18,7 @@
 #include <cjson/cJSON.h>
 
 /* Moves at most; each is so much of the shortest of the interfaces' longest edges, at most. */
-enum { MOVES = 400 };
+enum { MOVES = 400, MOVES_WITHOUT_FRICTION = 100 };
 static const PetscReal REACH = 0.02;
 /* Where moves go on and on in one direction, within this cosine, they become longer, up to this; and the loads' part in them, by as much.
  * Where they turn back the loads' part becomes smaller, as small as HESITANT, and as large as it was only after so many moves in one
@@ -161,7 +161,8 @@ static PetscErrorCode begin(Solve *solve, Settle *s, PetscBool *possible)
   Physics     *physics = solve->physics;
   PetscReal    edge = PETSC_MAX_REAL, young = PETSC_MAX_REAL, pressing;
   PetscFunctionBegin;
-  *s = (Settle){0};
+  *s      = (Settle){0};
+  s->rubs = (PetscBool)!physics->n_rigids;
   PetscCall(motions_create(physics, physics->u_local, solve->held.loose, &s->m));
   PetscCall(motions_add_springs(physics, physics->u_local, PETSC_FALSE, &s->m));
   for (PetscInt i = 0; i < solve->contact->n_interfaces; i++) {
@@ -301,7 +302,7 @@ static PetscErrorCode lay(Solve *solve, PetscReal t0, Vec last, PetscBool *laid)
   PetscCall(VecCopy(last, x));
   PetscCall(evaluate(solve, x, &refused));
   PetscCall(begin(solve, &s, &possible));
-  for (int k = 0; k < MOVES && possible && n_rest < RESTS && !refused; k++) {
+  for (int k = 0; k < (s.rubs ? MOVES : MOVES_WITHOUT_FRICTION) && possible && n_rest < RESTS && !refused; k++) {
     PetscCall(find_load(solve, &s, &pressing));
     PetscCall(settle_find_gaps(solve, &s));
     settle_find_move(&s, SWEPT * REACH * s.edge);
@@ -310,7 +311,7 @@ static PetscErrorCode lay(Solve *solve, PetscReal t0, Vec last, PetscBool *laid)
     n_rest = length <= REST * bound ? n_rest + 1 : 0;
     PetscCall(evaluate(solve, x, &refused));
   }
-  if (possible && !refused && length <= NEARLY * bound) PetscCall(settle_wants_friction(&s, laid));
+  if (possible && !refused && length <= (s.rubs ? NEARLY : REST) * bound) PetscCall(settle_wants_friction(&s, laid));
   if (*laid) {
     const PetscReal t = solve->physics->t;
     solve->physics->t = t0;

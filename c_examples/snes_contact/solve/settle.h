@@ -5,6 +5,7 @@
 
 typedef struct {
   Motions    m;
+  PetscBool  rubs;                 /* friction is counted: not in models with rigid bodies, whose places at rest would depend on the form of the system */
   PetscInt   n;                    /* motions that supports leave free, the first rows of m.gram */
   PetscReal *load, *move, *before; /* n: the move that nothing stops; the next one, the last one */
   PetscReal *laid;                 /* LAID_NUMBERS per part: how far it has come */

@@ -140,7 +140,7 @@ static PetscReal press(Settle *s, PetscInt g)
 /* It holds what slides, as far as friction goes. */
 static PetscReal rub(Settle *s, PetscInt g)
 {
-  const PetscReal *slide = s->slide + 2 * g * s->n, most = COUNTED * s->gaps[g].friction * s->force[g];
+  const PetscReal *slide = s->slide + 2 * g * s->n, most = (s->rubs ? COUNTED : 0) * s->gaps[g].friction * s->force[g];
   const PetscReal  stiff = s->slides[g];
   PetscReal        wanted[2], size, change = 0;
   if (!(stiff > NOTHING * NOTHING) || (most == 0 && s->rub[2 * g] == 0 && s->rub[2 * g + 1] == 0)) return 0;
