@@ -2,7 +2,8 @@
 a body was laid, is compared with one that knows turns by itself."""
 
 import numpy as np
-from scene import SCENES, write
+from pin_joint import END, pin_joint
+from scene import write
 
 # Friction holds the lug in a range of places, in which each law finds its own: 0.036 is measured. Strain that counted from where the lug was at first
 # would be several times that of the load.
@@ -10,32 +11,13 @@ LAWS = 0.06
 # Newton's tolerance.
 BALANCE = 1e-9
 PULL = (20.0, 2.0, 0.0)
-END = 4.0  # of the lug's pulled end, its area
-
-
-def joint(meshes, law):
-    scene = {
-        "schema": 1,
-        "bodies": ["lug", "fork", "pin"],
-        "supports": ["root"],
-        "root": {"surface": "fork.root", "components": ["x", "y", "z"]},
-        "loads": ["pull"],
-        "pull": {"surface": "lug.pull", "traction": list(PULL)},
-        "interfaces": ["inner", "outer"],
-        "inner": {"nonmortar": "lug.hole", "mortar": "pin.side", "friction": 0.2},
-        "outer": {"nonmortar": "fork.holes", "mortar": "pin.side", "friction": 0.2},
-        "steps": {"count": 2},
-    }
-    for body, young in (("lug", 70000), ("fork", 70000), ("pin", 210000)):
-        scene[body] = {"type": "gmsh", "file": str(meshes / f"joint_{body}.msh"), "young": young, "poisson": 0.3, "material": law}
-    return scene
 
 
 def laid(verdicts, driver):
     driver.output.mkdir(parents=True, exist_ok=True)
-    meshes, found = SCENES.parent / "meshes", {}
+    found = {}
     for law in ("linear", "st_venant_kirchhoff"):
-        run = driver.run(write(joint(meshes, law), driver.output / f"{law}.yaml"), "-output_restart_every", 1, "-output_restart_keep", 0, label=law)
+        run = driver.run(write(pin_joint(PULL, 2, material=law), driver.output / f"{law}.yaml"), "-output_restart_every", 1, "-output_restart_keep", 0, label=law)
         found[law] = run
         verdicts.true(f"{law}: laid down", "laid_down" in run.summary, "lug and pin")
         error = np.abs(np.array(run.steps[-1]["reactions"]["root"]) + END * np.array(PULL)).max() / (END * PULL[0])

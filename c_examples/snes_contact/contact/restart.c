@@ -59,26 +59,6 @@ static PetscErrorCode put(PetscSF sf, const PetscScalar values[], Vec local)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Entries of vertices that another rank owns. */
-static PetscErrorCode copy_to_ghosts(const Unknowns *unknowns, Vec local)
-{
-  const PetscScalar *from;
-  PetscScalar       *to;
-  Vec                owned;
-  PetscFunctionBegin;
-  if (!unknowns->ghosts) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(VecDuplicate(local, &owned));
-  PetscCall(VecCopy(local, owned));
-  PetscCall(VecGetArrayRead(owned, &from));
-  PetscCall(VecGetArray(local, &to));
-  PetscCall(PetscSFBcastBegin(unknowns->ghosts, MPIU_SCALAR, from, to, MPI_REPLACE));
-  PetscCall(PetscSFBcastEnd(unknowns->ghosts, MPIU_SCALAR, from, to, MPI_REPLACE));
-  PetscCall(VecRestoreArray(local, &to));
-  PetscCall(VecRestoreArrayRead(owned, &from));
-  PetscCall(VecDestroy(&owned));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* the multipliers of one interface */
 static PetscErrorCode archive_multipliers(Contact *contact, PetscInt number, Vec local, Archive *archive)
 {
@@ -113,7 +93,7 @@ PetscErrorCode contact_archive_vector(Contact *contact, const char *name, Vec lo
   PetscCall(PetscSFDestroy(&sf));
   for (PetscInt i = 0; i < contact->n_interfaces; i++)
     PetscCall(archive_multipliers(contact, i, local, archive));
-  if (archive->reading) PetscCall(copy_to_ghosts(&contact->physics->unknowns, local));
+  if (archive->reading) PetscCall(unknowns_to_ghosts(&contact->physics->unknowns, local));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -6,8 +6,7 @@ PetscErrorCode fluid_face(const Physics *physics, PetscInt point, const PetscSca
 {
   PetscFunctionBegin;
   PetscCall(face_look_at(physics, point, face));
-  for (PetscInt j = 0; j < 3 * face->n; j++)
-    face->X[j] += PetscRealPart(u[face->dofs[j / 3] + j % 3]);
+  face_move(face, u);
   face_pressure(face->kind, &physics->mesh->space, face->X, -face->sign, areas, NULL);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -61,3 +61,9 @@ PetscErrorCode face_look_at(const Physics *physics, PetscInt point, Face *face)
   face->sign = outward > 0 ? 1 : -1;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+void face_move(Face *face, const PetscScalar u[])
+{
+  for (PetscInt j = 0; j < 3 * face->n; j++)
+    face->X[j] += PetscRealPart(u[face->dofs[j / 3] + j % 3]);
+}

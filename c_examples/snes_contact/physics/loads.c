@@ -97,10 +97,9 @@ static PetscErrorCode press(Physics *physics, Face *face, PetscReal pressure, co
   PetscReal f[3 * FACE_NODES], K[9 * FACE_NODES * FACE_NODES];
   PetscInt  equations[3 * FACE_NODES];
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < 3 * face->n; j++) {
-    face->X[j] += PetscRealPart(u[face->dofs[j / 3] + j % 3]);
+  face_move(face, u);
+  for (PetscInt j = 0; j < 3 * face->n; j++)
     equations[j] = physics->unknowns.equations[face->dofs[j / 3] + j % 3];
-  }
   face_pressure(face->kind, &physics->mesh->space, face->X, -face->sign * pressure, f, matrix ? K : NULL);
   if (array) add(face->n, face->dofs, f, -1, array);
   if (matrix) PetscCall(MatSetValues(matrix, 3 * face->n, equations, 3 * face->n, equations, K, ADD_VALUES));

@@ -37,8 +37,7 @@ static PetscErrorCode measure(const Physics *physics, const Load *load, const Pe
     PetscReal before[3], now[3];
     PetscCall(face_look_at(physics, load->faces[k], &face));
     area_vector(physics, &face, before);
-    for (PetscInt j = 0; j < 3 * face.n; j++)
-      face.X[j] += PetscRealPart(u[face.dofs[j / 3] + j % 3]);
+    face_move(&face, u);
     area_vector(physics, &face, now);
     *turned = PetscMax(*turned, angle(before, now));
   }

@@ -295,6 +295,7 @@ typedef struct {
   PetscReal X[3 * FACE_NODES], sign;
 } Face;
 PetscErrorCode face_look_at(const Physics *physics, PetscInt point, Face *face);
+void           face_move(Face *face, const PetscScalar u[]); /* by the displacements of a local vector */
 PetscBool      loads_follow(const Physics *physics); /* is there a follower pressure? */
 PetscErrorCode loads_values(Physics *physics);       /* at physics->t and u_local, into f_external */
 PetscErrorCode loads_stiffness(Physics *physics, Mat matrix); /* adds what forces of followers differ by */
@@ -321,6 +322,7 @@ PetscErrorCode unknowns_gather_create(Physics *physics, PetscInt n, const PetscI
 PetscErrorCode unknowns_to_local(Physics *physics, Vec x);
 /* into f_sum: what all ranks hold, complete at owned vertices */
 PetscErrorCode unknowns_sum(Physics *physics, Vec local);
+PetscErrorCode unknowns_to_ghosts(const Unknowns *unknowns, Vec local); /* what the vertices' owners have */
 PetscErrorCode unknowns_share(Physics *physics, Vec local); /* the sum, in place, for all ranks that have the vertex */
 
 /* on every rank: of a vertex by its number */
@@ -336,7 +338,6 @@ typedef struct {
   PetscBool damping_only;
 } BulkStep;
 
-/* bulk.c */
 /* laid.c: parts that are moved as a whole before anything strains them; takes from a cell's displacements what strains nothing */
 void           laid_compose(const PetscReal first[LAID_NUMBERS], const PetscReal second[LAID_NUMBERS], PetscReal both[LAID_NUMBERS]);
 PetscErrorCode laid_move(Physics *physics, PetscInt part, const PetscReal motion[LAID_NUMBERS]);
@@ -344,6 +345,7 @@ void           laid_take(const Physics *physics, PetscInt cell, PetscReal u[]);
 PetscReal      laid_first(const Cells *cells, PetscInt number); /* a coordinate of a node of the cells, where it was at first */
 PetscErrorCode laid_archive(Physics *physics, Archive *archive);
 
+/* bulk.c */
 PetscErrorCode bulk_create(Physics *physics);
 Element        bulk_element(const Physics *physics, PetscInt cell); /* of this rank */
 /* `status` > 0 on every rank if a cell is turned inside out somewhere, named in physics->inverted */

@@ -244,21 +244,31 @@ PetscErrorCode unknowns_sum(Physics *physics, Vec local)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode unknowns_to_ghosts(const Unknowns *unknowns, Vec local)
+{
+  const PetscScalar *from;
+  PetscScalar       *to;
+  Vec                owned;
+  PetscFunctionBegin;
+  if (!unknowns->ghosts) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecDuplicate(local, &owned));
+  PetscCall(VecCopy(local, owned));
+  PetscCall(VecGetArrayRead(owned, &from));
+  PetscCall(VecGetArray(local, &to));
+  PetscCall(PetscSFBcastBegin(unknowns->ghosts, MPIU_SCALAR, from, to, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(unknowns->ghosts, MPIU_SCALAR, from, to, MPI_REPLACE));
+  PetscCall(VecRestoreArray(local, &to));
+  PetscCall(VecRestoreArrayRead(owned, &from));
+  PetscCall(VecDestroy(&owned));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode unknowns_share(Physics *physics, Vec local)
 {
-  const PetscSF      ghosts = physics->unknowns.ghosts;
-  const PetscScalar *sum;
-  PetscScalar       *mine;
   PetscFunctionBegin;
   PetscCall(unknowns_sum(physics, local));
   PetscCall(VecCopy(physics->f_sum, local));
-  if (!ghosts) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(VecGetArrayRead(physics->f_sum, &sum));
-  PetscCall(VecGetArray(local, &mine));
-  PetscCall(PetscSFBcastBegin(ghosts, MPIU_SCALAR, sum, mine, MPI_REPLACE));
-  PetscCall(PetscSFBcastEnd(ghosts, MPIU_SCALAR, sum, mine, MPI_REPLACE));
-  PetscCall(VecRestoreArray(local, &mine));
-  PetscCall(VecRestoreArrayRead(physics->f_sum, &sum));
+  PetscCall(unknowns_to_ghosts(&physics->unknowns, local));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
