@@ -50,7 +50,7 @@ help:
 	@echo "make hosts   programs on deal.II, MFEM, scikit-fem, FElupe, SfePy, petsc4py, and in CalculiX: installs these, compares them with the driver; hosts/README.md"
 	@echo "make newcomer   what the documents tell a new user to type, typed in an empty place, with its time (NAMES='python ...')"
 	@echo "make packages   crate, Debian packages, recipes of Spack and conda-forge, in $(BUILD)/packages; packaging/README.md"
-	@echo "make build   build the library and the examples into $(BUILD)/"
+	@echo "make build   build the library, the program stickslip and the examples into $(BUILD)/"
 	@echo "make install PREFIX=DIR [DESTDIR=]   install header, Fortran module, libraries, pkg-config and CMake files"
 	@echo "make uninstall PREFIX=DIR [DESTDIR=]   remove what was installed there"
 	@echo "make docs    guides and references as one site with search, in $(BUILD)/docs/site; make reference: those of C and Rust alone"

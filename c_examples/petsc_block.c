@@ -5,7 +5,7 @@ static char help[] = "An elastic block is pressed on a rigid base and pushed alo
  *
  * The block is a box of 8-node hexahedra of small strain. A dead load presses its top face, then the top face moves
  * along x. Unknowns: 3 displacements a node of the block, then 3 multipliers a node of its bottom face. The base is one
- * large facet without unknowns. One process: snes_contact beside this file is parallel, and cuts steps back.
+ * large facet without unknowns. One process: the program stickslip (program/) is parallel, and cuts steps back.
  *
  * From the top of the checkout (Debian: petsc-dev):
  *   cargo build --release

@@ -57,15 +57,17 @@ install(FILES c_examples/block_host.c c_examples/petsc_block.c c_examples/mpi_bl
   c_examples/profile_host.c
   DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_examples")
 install(DIRECTORY c_examples/fortran DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_examples" FILES_MATCHING PATTERN "*.f90")
-# The driver as something to read, its scenes and their meshes: the guides name them.
-install(DIRECTORY c_examples/snes_contact c_examples/scenes c_examples/meshes DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_examples"
-  FILES_MATCHING PATTERN "*.c" PATTERN "*.h" PATTERN "*.yaml" PATTERN "*.msh" PATTERN "*.geo" PATTERN "*.py" PATTERN "*.sh" PATTERN "*.md")
+# The program as something to read, scenes and their meshes: the guides name them.
+install(DIRECTORY program DESTINATION "${CMAKE_INSTALL_DOCDIR}"
+  FILES_MATCHING PATTERN "*.c" PATTERN "*.h" PATTERN "*.md" PATTERN tests EXCLUDE)
+install(DIRECTORY c_examples/scenes c_examples/meshes DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_examples"
+  FILES_MATCHING PATTERN "*.yaml" PATTERN "*.msh" PATTERN "*.geo" PATTERN "*.py" PATTERN "*.sh" PATTERN "*.md")
 install(DIRECTORY docs/formulation DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs")
 install(DIRECTORY docs/figures/ DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs/figures")
 
-# The driver as a program, which has the library within it.
-if(TARGET snes_contact)
-  install(PROGRAMS "$<TARGET_FILE:snes_contact>" DESTINATION "${CMAKE_INSTALL_BINDIR}" RENAME stickslip)
+# It has the library within it.
+if(TARGET stickslip_program)
+  install(PROGRAMS "$<TARGET_FILE:stickslip_program>" DESTINATION "${CMAKE_INSTALL_BINDIR}")
 endif()
 
 # The list for uninstalling, relative to the prefix, so that it is right wherever the tree is:

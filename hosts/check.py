@@ -186,7 +186,7 @@ def calculix(build, prefix, fetch):
     if made.returncode != 0:
         failed.append("CalculiX")
     elif subprocess.run([sys.executable, here / "check.py", "--program", folder / "ccx_stickslip", "--driver",
-                         build / "c_examples/snes_contact", "--out", folder / "runs"]).returncode != 0:
+                         build / "program/stickslip", "--out", folder / "runs"]).returncode != 0:
         failed.append("CalculiX")
     return True
 
@@ -206,7 +206,7 @@ def main():
     there = int(calculix(build, prefix, arguments.calculix))
     with tempfile.TemporaryDirectory(prefix="stickslip-") as folder:
         folder = Path(folder)
-        driver = Driver(build / "c_examples/snes_contact", folder)
+        driver = Driver(build / "program/stickslip", folder)
         for source in sorted(HERE.glob("*/CMakeLists.txt")):
             name = source.parent.name
             own = build / "hosts" / name

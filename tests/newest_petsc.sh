@@ -53,9 +53,9 @@ fi
 
 export PKG_CONFIG_PATH="$petsc/newest/lib/pkgconfig"
 cmake -S "$source" -B driver -DSTICKSLIP_TESTS=OFF -DPython3_EXECUTABLE="$python" >cmake.log 2>&1 || { tail -30 cmake.log >&2; exit 1; }
-cmake --build driver -j"$jobs" --target snes_contact >driver.log 2>&1 || { tail -30 driver.log >&2; exit 1; }
+cmake --build driver -j"$jobs" --target stickslip_program >driver.log 2>&1 || { tail -30 driver.log >&2; exit 1; }
 grep -E "warning:|error:" driver.log && exit 1
-ldd driver/c_examples/snes_contact | grep "$petsc" >/dev/null || { echo "the driver has another PETSc" >&2; exit 1; }
+ldd driver/program/stickslip | grep "$petsc" >/dev/null || { echo "the driver has another PETSc" >&2; exit 1; }
 groups="patch block steps invariance errors jacobian iterative"
 test -z "$mumps" || groups="$groups parallel ranks"
 exec "$python" "$source/tests/acceptance/check.py" --build driver $groups

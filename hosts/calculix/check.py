@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """CalculiX with contact pairs of stickslip (build.py), compared with its own contact, formulas and the driver.
 
-    check.py --program ccx_stickslip --driver snes_contact --out FOLDER
+    check.py --program ccx_stickslip --driver stickslip --out FOLDER
 """
 
 import argparse

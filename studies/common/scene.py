@@ -1,6 +1,6 @@
 """Run one example scene and read what it wrote.
 
-The contract with the driver: `snes_contact -scene FILE -output_dir DIR [options]` leaves in DIR `summary.json`,
+The contract with the driver: `stickslip -scene FILE -output_dir DIR [options]` leaves in DIR `summary.json`,
 `interface_NAME_STEP.csv` (one row per non-mortar node) and `step_STEP.vtu` (of several ranks `step_STEP.pvtu`). Exit code 0: every step converged,
 1: bad scene, 2: not converged, 3: refused by the library.
 
@@ -182,12 +182,12 @@ def _cpu_of_children():
 
 
 class Driver:
-    """The example program in a build tree; outputs go to subdirectories of `output`. With `keep` a run whose outputs are
+    """The program in a build tree; outputs go to subdirectories of `output`. With `keep` a run whose outputs are
     newer than its inputs (program, scene, meshes) and that had the same options is read instead of made again; `report`
     is told of every run, with the number of seconds, or None if it was kept."""
 
     def __init__(self, build, output, keep=False, report=lambda label, run, seconds: None):
-        self.program = Path(build).resolve() / "c_examples" / "snes_contact"
+        self.program = Path(build).resolve() / "program" / "stickslip"
         self.output = Path(output).resolve()
         self.keep, self.report = keep, report
         if not self.program.is_file():

@@ -33,7 +33,7 @@ COARSER = {
 # The error of these hangs on where in its facet the border of the contact lies: of several loads, too.
 LOADED = ("hertz_line_coarse", "hertz_line_fine")
 QUIET = ("-output_vtu", "none", "-output_quiet", "true")
-WARNS = "snes_contact: warning:"
+WARNS = "stickslip: warning:"
 # Below this an answer is exact: Newton's tolerance and rounding. Above: what errors may grow by before a scene is named.
 EXACT, MORE = 1e-7, 1.05
 MOST = 5  # scenes in which the paper's element takes most more, which would hide the others in a sum

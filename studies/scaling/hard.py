@@ -43,7 +43,7 @@ CASES = (
 def measure(build, output, label, scene, options):
     folder = output / "hard" / "".join(c if c.isalnum() else "_" for c in label)
     dual = [word for i in interfaces(scene) for word in (f"-{i}_basis", "dual", f"-{i}_weak_coverage", "0")]
-    command = [build / "c_examples" / "snes_contact", "-scene", SCENES / f"{scene}.yaml", "-output_dir", folder, *dual, *options,
+    command = [build / "program" / "stickslip", "-scene", SCENES / f"{scene}.yaml", "-output_dir", folder, *dual, *options,
                "-unknowns", "displacements", "-solver", "iterative", "-output_csv", "none", "-output_vtu", "none", "-options_left", "no"]
     folder.mkdir(parents=True, exist_ok=True)
     with open(folder / "run.txt", "w") as text:

@@ -95,7 +95,7 @@ def converted(build, output, rows):
 
 
 def program(build):
-    return build.resolve() / "c_examples" / "snes_contact"
+    return build.resolve() / "program" / "stickslip"
 
 
 def call(command, log):

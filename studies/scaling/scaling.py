@@ -49,7 +49,7 @@ def launch(build, output, n, solver, options, name=None, expect=0):
     name = name or f"{solver}_{n}"
     folder, log = output / name, output / f"{name}.txt"
     cells = ("-upper_cells", f"{n},{n},{n}", "-lower_cells", f"{n + 1},{n + 1},{n}")
-    command = [build / "c_examples" / "snes_contact", "-scene", SCENES / "two_blocks.yaml", "-output_dir", folder, *options,
+    command = [build / "program" / "stickslip", "-scene", SCENES / "two_blocks.yaml", "-output_dir", folder, *options,
                *cells, "-solver", solver]
     with open(log, "w") as text:
         process = subprocess.Popen([str(word) for word in command], stdout=text, stderr=subprocess.STDOUT,
@@ -85,7 +85,7 @@ def holdings(build, output):
     for ranks in HELD_RANKS:
         print(f"{ranks} ranks", file=sys.stderr, flush=True)
         folder = output / f"ranks_{ranks}"
-        command = ["mpirun", "--oversubscribe", "-n", ranks, build / "c_examples" / "snes_contact", "-scene", SCENES / "two_blocks.yaml",
+        command = ["mpirun", "--oversubscribe", "-n", ranks, build / "program" / "stickslip", "-scene", SCENES / "two_blocks.yaml",
                    "-output_dir", folder, *OPTIONS, "-upper_cells", f"{n},{n},{n}", "-lower_cells", f"{n + 1},{n + 1},{n}",
                    "-solver", "iterative", "-output_vtu", "none", "-output_csv", "none"]
         with open(output / f"ranks_{ranks}.txt", "w") as text:

@@ -1,5 +1,5 @@
 """Checks of contact on several ranks: states, iterations and answers are those of one rank, whatever the partition. Each rank
-has a part of each interface (c_examples/snes_contact/contact/parts.c)."""
+has a part of each interface (program/contact/parts.c)."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""No run ends well out of balance, or with energy from nowhere: faults that are planted in the driver (c_examples/tests/planted_faults.c) are found and named, and tractions
+"""No run ends well out of balance, or with energy from nowhere: faults that are planted in the driver (program/tests/planted_faults.c) are found and named, and tractions
 beyond what bodies can carry are, a block that is drawn over facets and must not sink, with dynamics and without, and one that spins. And what is as it should be
 is not refused."""
 

@@ -6,7 +6,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;
 
-const FOLDERS: [&str; 9] = ["src", "include", "c_examples", "studies", "tests", "benches", "fuzz", "docs", "cmake"];
+const FOLDERS: [&str; 10] =
+    ["src", "include", "program", "c_examples", "studies", "tests", "benches", "fuzz", "docs", "cmake"];
 const ENDINGS: [&str; 10] = ["rs", "c", "h", "f90", "py", "md", "yaml", "toml", "cmake", "sh"];
 /// Folders of data, and what is not in the repository.
 const WITHOUT: [&str; 5] = ["target", "corpus", "seeds", "artifacts", "data"];

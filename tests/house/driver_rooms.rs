@@ -1,10 +1,10 @@
-//! The driver `c_examples/snes_contact` in rooms: headers do not include each other in a circle, files do not call each
-//! other in a circle, and each room includes and calls only what lies below it (ARCHITECTURE.md).
+//! The driver, the program of `program`, in rooms: headers do not include each other in a circle, files do not call each
+//! other in a circle, and each room includes and calls only what lies below it (program/README.md).
 
 use crate::support::files::{below, root};
 use std::collections::{BTreeMap, BTreeSet};
 
-const DRIVER: &str = "c_examples/snes_contact";
+const DRIVER: &str = "program";
 /// Lowest first. Files beside the folders stand above all rooms.
 const ROOMS: [&str; 7] = ["scene", "mesh", "physics", "contact", "solve", "heat", "output"];
 
@@ -16,7 +16,7 @@ type Graph = BTreeMap<String, BTreeMap<String, String>>;
 fn driver() -> Files {
     let folder = root().join(DRIVER);
     let name = |path: &std::path::Path| path.strip_prefix(&folder).unwrap().to_string_lossy().replace('\\', "/");
-    let files = below(&folder, &["c", "h"], &[]);
+    let files = below(&folder, &["c", "h"], &["tests"]);
     files.iter().map(|f| (name(f), std::fs::read_to_string(f).unwrap())).collect()
 }
 

@@ -6,8 +6,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const FOLDERS: [&str; 9] =
-    ["docs", "hosts", "python", "packaging", "c_examples", "studies", "benches", "fuzz", "tests"];
+const FOLDERS: [&str; 10] =
+    ["docs", "hosts", "python", "packaging", "program", "c_examples", "studies", "benches", "fuzz", "tests"];
 /// What is not in the repository.
 const WITHOUT: [&str; 4] = ["target", "corpus", "artifacts", "build"];
 

@@ -60,7 +60,7 @@ fn every_key_that_the_driver_reads_has_words() {
     text += &fs::read_to_string(root().join("docs/dynamics.md")).unwrap();
     let code: BTreeSet<&str> =
         text.split('`').skip(1).step_by(2).flat_map(|c| c.split(|c: char| !c.is_alphanumeric() && c != '_')).collect();
-    let sources = below(&root().join("c_examples/snes_contact"), &["c"], &[]);
+    let sources = below(&root().join("program"), &["c"], &[]);
     let read: BTreeSet<_> = sources.iter().flat_map(|p| keys_read(&fs::read_to_string(p).unwrap())).collect();
     assert!(read.len() > 100 && read.contains("nonmortar"), "{read:?}");
     let silent: Vec<_> = read.iter().filter(|k| !code.contains(k.as_str())).collect();

@@ -185,7 +185,7 @@ def test_documents(tree):
     compilers = {"c": ("cc -std=c99 -Wall -Wextra -Wpedantic -Werror", "block.c"),
                  "cpp": ("c++ -std=c++17 -Wall -Wextra -Wpedantic -Werror", "block.cpp"),
                  "fortran": ("gfortran -Wall $PREFIX/include/stickslip.f90", "block.f90")}
-    examples = [p for suffix in ("c", "f90") for p in (ROOT / "c_examples").rglob(f"*.{suffix}")]
+    examples = [p for suffix in ("c", "f90") for folder in ("c_examples", "program") for p in (ROOT / folder).rglob(f"*.{suffix}")]
     sources = [squeezed(p.read_text()) for p in examples]
     guide = "".join(p.read_text() for p in [ROOT / "docs/plug_in.md", *(ROOT / "docs").glob("host_*.md")])
     expect(guide.count("```c\n") >= 20 and "```fortran" in guide and "```cpp" in guide, "the guide has its code blocks")

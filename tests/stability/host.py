@@ -85,7 +85,7 @@ class Context:
 def message(run):
     """The sentence with which the driver gave up, and what the library found at its last iterate."""
     lines = [line.strip() for line in run.text.splitlines() if line.strip()]
-    told = [line for line in lines if re.match(r"(\[0\])?(snes_contact: |\S+\.yaml: )(?!\d+ unknowns)", line)]
+    told = [line for line in lines if re.match(r"(\[0\])?(stickslip: |\S+\.yaml: )(?!\d+ unknowns)", line)]
     found = [line for line in lines if re.match(r"\w+: \d+ nodes in gap", line)]
     return " ".join([(told or lines or [""])[-1], *found])
 

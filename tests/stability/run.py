@@ -78,7 +78,7 @@ class Matrix:
         self.build, self.jobs, self.chosen = build, jobs, chosen
         self.folder = build / matrix_folder() / "cells"
         self.folder.mkdir(parents=True, exist_ok=True)
-        self.programs = [build / "c_examples" / "snes_contact", build / "lib" / "libstickslip.so"]
+        self.programs = [build / "program" / "stickslip", build / "lib" / "libstickslip.so"]
         self.again, self.start, self.done = again, time.monotonic(), 0
 
     def path(self, cell):
