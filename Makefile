@@ -15,7 +15,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: packages hosts newcomer help demo gallery effects aids method study border exact compare bench random fuzz stability scaling scaling-ranks ranks ranks-full newest-petsc ratios digest wheel python-examples check test test-long test-full build install uninstall docs reference abi sizes header compose meshes clean cmake-build rust-tests
+.PHONY: packages hosts newcomer help demo gallery effects aids method study border exact compare bench random fuzz stability scaling scaling-ranks ranks ranks-full newest-petsc ratios digest wheel python-examples check test test-long test-full build install uninstall docs reference abi sizes header compose keys meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
@@ -58,6 +58,7 @@ help:
 	@echo "make sizes   what each feature that can be left out adds to the library, half an hour (FIGURES=1: renew the table)"
 	@echo "make header  make include/stickslip.h again from src/capi"
 	@echo "make compose  make docs/compose.md and what the header says does not go together again from src/interface/compose"
+	@echo "make keys    make the tables of keys in c_examples/scenes again from program/scene/keys"
 	@echo "make meshes  make the example meshes again with Gmsh"
 	@echo "make clean   remove $(BUILD)/ and target/"
 
@@ -359,6 +360,12 @@ header:
 compose:
 	STICKSLIP_WRITE_COMPOSE=1 cargo test --locked --test interface compose::page
 	@$(MAKE) --no-print-directory header
+
+# The tables of the pages, from program/scene/keys.
+keys:
+	@.ci/setup build
+	@$(MAKE) --no-print-directory cmake-build
+	@$(PYTHON) program/tests/keys_pages.py $(BUILD)/program/stickslip --renew
 
 meshes:
 	@.ci/setup meshes

@@ -9,14 +9,17 @@
 #include "mesh/converted.h"
 #include "physics/dynamics.h"
 #include "model.h"
+#include "scene/keys_print.h"
 #include "solve/sensitivity.h"
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 static const char help[] = "Frictional contact of elastic bodies.\n"
                            "  FILE.yaml, or -scene FILE.yaml   what to solve (format: c_examples/scenes/README.md)\n"
                            "  -output_dir DIR    where summary.json, interface_*.csv and step_*.vtu go; else to FILE_results\n"
                            "  -convert FILE.h5   writes the bodies from Gmsh files for all ranks to read, and ends\n"
+                           "  -keys [ITEM]       prints the keys of a scene, or of one item of it as `interfaces`, and ends\n"
                            "  -test_jacobian_blocks  compare the tangent with differences of the residual\n"
                            "Every value of the scene can be overridden: `block: {young: 1}` by -block_young 1.\n\n";
 
@@ -41,13 +44,9 @@ static void connect(Model *model)
 
 static PetscErrorCode read_scene(Model *model)
 {
-  static const char *const maps[] = {"frame", "steps", "output", "dynamics"};
-  PetscReal                schema = 0;
+  PetscReal schema = 0;
   PetscFunctionBegin;
-  for (size_t k = 0; k < sizeof(maps) / sizeof(maps[0]); k++) {
-    if (scene_has(model->scene, NULL, maps[k]))
-      scene_fail(model->scene, NULL, maps[k], "a map is expected here, not a single value or a list.");
-  }
+  scene_check_maps(model->scene);
   if (!scene_has(model->scene, NULL, "schema"))
     scene_fail(model->scene, NULL, "schema", "this key is missing: begin the file with `schema: 1`.");
   scene_real_required(model->scene, NULL, "schema", &schema);
@@ -148,6 +147,23 @@ static PetscErrorCode find_scene(int argc, char **argv, char scene[], size_t len
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* `-keys`, `-keys ITEM`, `-keys markdown`: what a scene may say. */
+static PetscErrorCode print_keys(const char *item, int *exit_code)
+{
+  PetscMPIInt rank;
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  if (rank) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!strcmp(item, "markdown")) {
+    keys_print_markdown();
+  } else if (!keys_print(item)) {
+    fprintf(stderr, "stickslip: no item of a scene is called '%s'; there are: ", item);
+    keys_print_items();
+    *exit_code = 1;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* FILE_results in the current folder, for PATH/FILE.yaml */
 static PetscErrorCode name_directory(const char *scene, char directory[], size_t length)
 {
@@ -159,14 +175,20 @@ static PetscErrorCode name_directory(const char *scene, char directory[], size_t
 
 int main(int argc, char **argv)
 {
-  char      scene[PETSC_MAX_PATH_LEN] = "", directory[PETSC_MAX_PATH_LEN] = "", converted[PETSC_MAX_PATH_LEN] = "";
-  PetscBool have_scene, have_directory, convert;
+  char      scene[PETSC_MAX_PATH_LEN] = "", directory[PETSC_MAX_PATH_LEN] = "", converted[PETSC_MAX_PATH_LEN] = "", item[NAME_LENGTH] = "";
+  PetscBool have_scene, have_directory, convert, keys;
   PetscInt  status    = 0;
   int       exit_code = 0;
   Model     model     = {0};
 
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(PetscTime(&model.output.started));
+  PetscCall(PetscOptionsGetString(NULL, NULL, "-keys", item, sizeof(item), &keys));
+  if (keys) {
+    PetscCall(print_keys(item, &exit_code));
+    PetscCall(PetscFinalize());
+    return exit_code;
+  }
   PetscCall(find_scene(argc, argv, scene, sizeof(scene), &have_scene));
   PetscCall(PetscOptionsGetString(NULL, NULL, "-output_dir", directory, sizeof(directory), &have_directory));
   PetscCall(PetscOptionsGetString(NULL, NULL, "-convert", converted, sizeof(converted), &convert));

@@ -141,14 +141,9 @@ static void read_effects(Scene *scene, Interface *interface)
     method->no_shortcuts = STICKSLIP_SHORTCUT_RIGID;
 }
 
-/* Default of `slide_max`: what a mesh shows. A block drawn over a plate by 3 facets a step of committed weights was pressed 7 per
- * cent too hard, by 0.3 of a facet 0.02 per cent. */
-static const PetscReal SLIDE_MAX = 0.5;
 /* How far weights of the reference may turn before that is told, in radians, unless `turn_max` says: so much of the pressure acts as a
  * shear then. As far off are the forces of the linear material at its limit (range.c). */
 static const PetscReal TURN_TOLD = 0.03;
-/* Default of `lag_max`: what a mesh shows of a contact's force. */
-static const PetscReal LAG_MAX = 0.1;
 
 /* `method`: the library's own, or the paper's. */
 static PetscBool read_paper(Scene *scene)
@@ -193,11 +188,7 @@ static void read_method(Scene *scene, Interface *interface)
 
   char      word[NAME_LENGTH] = "";
 
-  interface->initial_contact = PETSC_TRUE;
-  interface->slide.most      = SLIDE_MAX;
-  interface->turn.most       = TURN_TOLD;
-  interface->lag.most        = LAG_MAX;
-  interface->lag_corrects    = PETSC_TRUE;
+  interface->turn.most = TURN_TOLD;
   scene_string(scene, name, "slip", word, sizeof(word));
   if (!strcmp(word, "seed")) scene_fail(scene, name, "slip", "'seed' is called 'paper' now.");
   scene_choice(scene, name, "slip", slips, &slip);
@@ -219,18 +210,8 @@ static void read_method(Scene *scene, Interface *interface)
   scene_real(scene, name, "lag_max", &interface->lag.most);
   interface->lag_corrects = (PetscBool)(interface->lag.most < 1);
   scene_bool(scene, name, "lag_corrected", &interface->lag_corrects);
-  if (scene_has(scene, name, "augmentation") && augmentation <= 0)
-    scene_fail(scene, name, "augmentation", "it must be positive.");
-  if (scene_has(scene, name, "modulus") && modulus <= 0) scene_fail(scene, name, "modulus", "it must be positive.");
-  if (distance < 0) scene_fail(scene, name, "search_distance", "it cannot be negative.");
   if (weak_coverage != STICKSLIP_WEAK_COVERAGE_NONE && (weak_coverage < 0 || weak_coverage > 1))
     scene_fail(scene, name, "weak_coverage", "it is a fraction of an area: from 0 (the library's choice) to 1, or -1: none.");
-  if (coverage_min < 0 || coverage_min >= 1)
-    scene_fail(scene, name, "coverage_min", "it must be at least 0 and below 1.");
-  if (turn_max < 0 || turn_max > PETSC_PI)
-    scene_fail(scene, name, "turn_max", "it is an angle in radians: from 0 to pi.");
-  if (!(interface->slide.most > 0)) scene_fail(scene, name, "slide_max", "it must be positive.");
-  if (!(interface->lag.most > 0)) scene_fail(scene, name, "lag_max", "it must be positive.");
   method->multiplier_basis = (int32_t)basis;
   method->normals          = (int32_t)normal;
   method->turn_max         = turn_max;
@@ -267,8 +248,6 @@ static void read_accuracy(Scene *scene, Interface *interface)
   scene_choice(scene, name, "tangent", tangents, &tangent);
   if (scene_has(scene, name, "points") && integration == STICKSLIP_INTEGRATION_SEGMENTS)
     scene_fail(scene, name, "points", "it needs 'integration: elements' or 'hybrid'.");
-  if (scene_has(scene, name, "points") && (points < 2 || points > 10))
-    scene_fail(scene, name, "points", "2 to 10 are possible.");
   method->quadrature     = (int32_t)rule;
   method->integration    = (int32_t)integration;
   method->tangent        = (int32_t)tangent;
@@ -288,7 +267,7 @@ static void read_unknowns(Scene *scene, Contact *contact)
 static PetscErrorCode read_nodes(Scene *scene, Contact *contact, Interface *interface)
 {
   PetscInt *symmetry;
-  PetscReal scale = 1;
+  PetscReal scale = 0;
   PetscFunctionBegin;
   PetscCall(surfaces_read(scene, contact, interface));
   PetscCall(PetscCalloc1(interface->n1, &symmetry));
@@ -296,7 +275,6 @@ static PetscErrorCode read_nodes(Scene *scene, Contact *contact, Interface *inte
   else PetscCall(symmetry_mask(contact->physics, interface, symmetry));
   PetscCall(settle_nodes(scene, contact, interface, symmetry));
   scene_real(scene, interface->name, "augmentation_scale", &scale);
-  if (scale <= 0) scene_fail(scene, interface->name, "augmentation_scale", "it must be positive.");
   interface->method.augmentation *= scale;
   interface->options.modulus *= scale;
   if (!interface->skin) {

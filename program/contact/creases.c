@@ -135,13 +135,11 @@ PetscErrorCode creases_split(Scene *scene, const Contact *contact, Interface *in
   const Surface *share     = interface->surface[0];
   const PetscInt n_corners = share->offsets[share->n_faces];
   ContactPart    part      = {0};
-  PetscReal      angle     = CREASE_ANGLE;
+  PetscReal      angle     = SKIN_CREASE;
   PetscInt      *copies, *here, creased = 0;
   PetscFunctionBegin;
   *nodes = NULL;
-  if (interface->skin) angle = SKIN_CREASE;
-  else scene_real(scene, interface->name, "crease_angle", &angle);
-  if (angle < 0 || angle >= 180) scene_fail(scene, interface->name, "crease_angle", "it is in degrees: from 0 (no node is split) to below 180.");
+  if (!interface->skin) scene_real(scene, interface->name, "crease_angle", &angle);
   if (interface->options.friction == STICKSLIP_FRICTION_TIED) PetscFunctionReturn(PETSC_SUCCESS); /* which way nothing moves does not matter */
   PetscCall(deal(mesh, interface, &part));
   PetscCall(PetscMalloc1(part.offsets[0][part.n_facets[0]], &copies));

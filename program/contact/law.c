@@ -5,15 +5,14 @@
 static const char *const LAWS[] = {"coulomb", "none", "tied", "rough", "tresca", "cohesion", "weakening", "orthotropic", NULL};
 enum { FIRST_OWN = 5 };
 
-/* A number of one law: needed there, above `least` or equal to it, and refused of all others. */
-static PetscReal number_of(Scene *scene, const Interface *interface, const char *key, PetscBool wanted, PetscBool zero, const char *law)
+/* A number of one law: needed there, and refused of all others. */
+static PetscReal number_of(Scene *scene, const Interface *interface, const char *key, PetscBool wanted, const char *law)
 {
   const char *name  = interface->name;
   PetscReal   value = 0;
   scene_real(scene, name, key, &value);
   if (!wanted && scene_has(scene, name, key)) scene_fail(scene, name, key, "the law '%s' has no such number.", law);
   if (wanted && !scene_has(scene, name, key)) scene_fail(scene, name, key, "this key is missing: the law '%s' needs it.", law);
-  if (value < 0 || (wanted && !zero && value == 0)) scene_fail(scene, name, key, "it must be %s.", zero ? "at least 0" : "above 0");
   return value;
 }
 
@@ -26,10 +25,10 @@ static void read_own(Scene *scene, const Space *space, Interface *interface, Pet
   stickslip_law  *own = &interface->law;
 
   *own               = (stickslip_law){.struct_size = sizeof(*own), .kind = (int32_t)kind};
-  own->cohesion      = number_of(scene, interface, "cohesion", cohesive, PETSC_TRUE, law);
-  own->mu_after      = number_of(scene, interface, "friction_after", weakens, PETSC_TRUE, law);
-  own->critical_slip = number_of(scene, interface, "critical_slip", weakens, PETSC_FALSE, law);
-  own->mu_across     = number_of(scene, interface, "friction_across", across, PETSC_FALSE, law);
+  own->cohesion      = number_of(scene, interface, "cohesion", cohesive, law);
+  own->mu_after      = number_of(scene, interface, "friction_after", weakens, law);
+  own->critical_slip = number_of(scene, interface, "critical_slip", weakens, law);
+  own->mu_across     = number_of(scene, interface, "friction_across", across, law);
   if (!across) {
     if (scene_has(scene, name, "direction")) scene_fail(scene, name, "direction", "the law '%s' has none.", law);
     return;
@@ -48,7 +47,6 @@ void law_read(Scene *scene, const Space *space, Interface *interface)
   PetscReal          mu = 0, shear_limit = 0;
 
   scene_real(scene, name, "friction", &mu);
-  if (mu < 0) scene_fail(scene, name, "friction", "a Coulomb coefficient cannot be negative.");
   if (!scene_has(scene, name, "law") && mu == 0 && !layer_slips(scene, name)) law = STICKSLIP_FRICTION_NONE;
   scene_choice(scene, name, "law", LAWS, &law);
   kind = law < FIRST_OWN ? STICKSLIP_LAW_COULOMB : STICKSLIP_LAW_COHESION + law - FIRST_OWN;

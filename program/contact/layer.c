@@ -37,16 +37,13 @@ void layer_read(Scene *scene, Interface *interface)
   *layer = (stickslip_layer){.struct_size = sizeof(*layer)};
   read_table(scene, interface);
   scene_real(scene, name, "wear", &wear);
-  if (wear < 0) scene_fail(scene, name, "wear", "it must be at least 0.");
   layer->wear = wear;
-  layer->bond_shear = 1;
   for (int k = 0; k < N_BOND; k++) {
-    PetscReal value = *bond[k];
+    PetscReal value = 0;
     scene_real(scene, name, BOND[k], &value);
     if (k && scene_has(scene, name, BOND[k]) && !scene_has(scene, name, BOND[0]))
       scene_fail(scene, name, BOND[k], "it belongs to a bond: give `bond_stiffness`, too.");
-    if (scene_has(scene, name, BOND[0]) && value <= 0)
-      scene_fail(scene, name, BOND[k], scene_has(scene, name, BOND[k]) ? "it must be above 0." : "this key is missing: a bond needs it.");
+    if (scene_has(scene, name, BOND[0]) && !(value > 0)) scene_fail(scene, name, BOND[k], "this key is missing: a bond needs it.");
     *bond[k] = value;
   }
   if (!scene_has(scene, name, BOND[0])) layer->bond_shear = 0;

@@ -55,7 +55,6 @@ PetscErrorCode offsets_read(Scene *scene, const Physics *physics, Interface *int
     PetscCall(curve_read(scene, name, "offset_curve", physics->end, &offsets->curve));
   }
   scene_real(scene, name, "adjust", &offsets->adjust);
-  if (scene_has(scene, name, "adjust") && offsets->adjust <= 0) scene_fail(scene, name, "adjust", "a tolerance above 0 is expected.");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -68,7 +68,6 @@ static PetscReal coefficient(Scene *scene, const char *map, const char *key, Pet
 {
   PetscReal mu = otherwise;
   scene_real(scene, map, key, &mu);
-  if (mu < 0) scene_fail(scene, map, key, "a Coulomb coefficient cannot be negative.");
   return mu;
 }
 

@@ -2,19 +2,6 @@
 #include "heat/heat.h"
 #include <string.h>
 
-static void positive(Scene *scene, const char *map, const char *key, PetscReal *value)
-{
-  scene_real(scene, map, key, value);
-  if (scene_has(scene, map, key) && !(*value > 0))
-    scene_fail(scene, map, key, "it must be positive, not %g.", (double)*value);
-}
-
-static void not_negative(Scene *scene, const char *map, const char *key, PetscReal *value)
-{
-  scene_real(scene, map, key, value);
-  if (*value < 0) scene_fail(scene, map, key, "it must not be negative, but it is %g.", (double)*value);
-}
-
 static PetscErrorCode read_bodies(Scene *scene, Heat *heat)
 {
   const Mesh *mesh = heat->mesh;
@@ -25,11 +12,11 @@ static PetscErrorCode read_bodies(Scene *scene, Heat *heat)
     const Body *body = &mesh->bodies[b];
     Conductor  *of   = &heat->bodies[b];
     if (tool_is(mesh, b)) {
-      not_negative(scene, body->name, "heat_capacity", &of->capacity);
+      scene_real(scene, body->name, "heat_capacity", &of->capacity);
       continue;
     }
-    positive(scene, body->name, "conductivity", &of->conductivity);
-    not_negative(scene, body->name, "heat_capacity", &of->capacity);
+    scene_real(scene, body->name, "conductivity", &of->conductivity);
+    scene_real(scene, body->name, "heat_capacity", &of->capacity);
     scene_real(scene, body->name, "expansion", &of->expansion);
     if (of->conductivity > 0) any = PETSC_TRUE;
     if (of->expansion != 0 && !heat->two_way)
@@ -158,17 +145,15 @@ static PetscErrorCode read_interfaces(Scene *scene, Heat *heat)
     const char     *name = heat->contact->interfaces[i].name;
     HeatInterface  *of   = &heat->interfaces[i];
     const PetscBool rubs = scene_has(scene, name, "friction_heat");
-    PetscReal       share = 0, contact = 0, pressure = 0, exponent = 0.95, constant = 0, gas = 0, distance = 0, reach = 0;
-    not_negative(scene, name, "conductance", &contact);
-    positive(scene, name, "conductance_pressure", &pressure);
-    positive(scene, name, "conductance_exponent", &exponent);
-    not_negative(scene, name, "conductance_constant", &constant);
-    not_negative(scene, name, "gap_conductivity", &gas);
-    positive(scene, name, "gap_distance", &distance);
-    positive(scene, name, "conductance_reach", &reach);
-    not_negative(scene, name, "friction_heat", &share);
-    if (share > 1) scene_fail(scene, name, "friction_heat", "it is the non-mortar body's share, 0 to 1, not %g.", (double)share);
-    if (exponent > 2) scene_fail(scene, name, "conductance_exponent", "at most 2 is possible, not %g.", (double)exponent);
+    PetscReal       share = 0, contact = 0, pressure = 0, exponent = 0, constant = 0, gas = 0, distance = 0, reach = 0;
+    scene_real(scene, name, "conductance", &contact);
+    scene_real(scene, name, "conductance_pressure", &pressure);
+    scene_real(scene, name, "conductance_exponent", &exponent);
+    scene_real(scene, name, "conductance_constant", &constant);
+    scene_real(scene, name, "gap_conductivity", &gas);
+    scene_real(scene, name, "gap_distance", &distance);
+    scene_real(scene, name, "conductance_reach", &reach);
+    scene_real(scene, name, "friction_heat", &share);
     if (contact > 0 && !(pressure > 0))
       scene_fail(scene, name, "conductance_pressure", "this key is missing: the pressure that `conductance` is at.");
     if (gas > 0 && !(distance > 0))
@@ -192,14 +177,11 @@ PetscErrorCode heat_read(Scene *scene, Heat *heat)
   PetscInt                 coupling    = 0;
   PetscFunctionBegin;
   if (!scene_has(scene, "heat", "initial")) PetscFunctionReturn(PETSC_SUCCESS);
-  heat->on        = PETSC_TRUE;
-  heat->tolerance = 1e-9;
-  heat->most      = 50;
+  heat->on = PETSC_TRUE;
   scene_real_required(scene, "heat", "initial", &heat->initial);
   scene_choice(scene, "heat", "coupling", couplings, &coupling);
-  positive(scene, "heat", "tolerance", &heat->tolerance);
+  scene_real(scene, "heat", "tolerance", &heat->tolerance);
   scene_int(scene, "heat", "turns", &heat->most);
-  if (heat->most < 1) scene_fail(scene, "heat", "turns", "it must be at least 1, not %d.", (int)heat->most);
   heat->two_way = (PetscBool)coupling;
   PetscCall(read_bodies(scene, heat));
   PetscCall(read_supports(scene, heat, "temperatures", PETSC_FALSE));

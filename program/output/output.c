@@ -20,11 +20,8 @@ static PetscBool make_folder(const char *path)
 /* `restart_every`, `restart_keep` */
 static void read_restart(Scene *scene, Output *output)
 {
-  output->restart_keep = 1;
   scene_int(scene, "output", "restart_every", &output->restart_every);
   scene_int(scene, "output", "restart_keep", &output->restart_keep);
-  if (output->restart_every < 0) scene_fail(scene, "output", "restart_every", "it is a number of steps, or 0 for no restart files.");
-  if (output->restart_keep < 0) scene_fail(scene, "output", "restart_keep", "it is a number of files, or 0 for all.");
   if (!output->restart_every && scene_has(scene, "output", "restart_keep"))
     scene_fail(scene, "output", "restart_keep", "there are no restart files: give `restart_every`.");
 }

@@ -52,11 +52,8 @@ static void read_scheme(Scene *scene, const Mesh *mesh, Dynamics *dynamics)
   static const char *const damping[] = {"mass_damping", "stiffness_damping"};
   PetscReal *const         values[]  = {&dynamics->mass_damping, &dynamics->stiffness_damping};
   const PetscReal          rho       = dynamics->rho_inf;
-  if (!(rho >= 0 && rho <= 1)) scene_fail(scene, "dynamics", "rho_inf", "it lies between 0 and 1, not %g.", (double)rho);
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < 2; k++)
     scene_real(scene, "dynamics", damping[k], values[k]);
-    if (!(*values[k] >= 0)) scene_fail(scene, "dynamics", damping[k], "it cannot be negative, as %g is.", (double)*values[k]);
-  }
   scene_choice(scene, "dynamics", "contact_mass", masses, &mass);
   dynamics->spread = (PetscBool)mass;
   if (mass && rho < 1) scene_fail(scene, "dynamics", "contact_mass", "`spread` goes with `rho_inf: 1` only: nodes without mass have no acceleration.");

@@ -14,13 +14,7 @@ static PetscErrorCode read_material(Scene *scene, const Space *space, const char
   for (PetscInt k = 0; k < N_LAWS; k++) law_names[k] = laws[k]->name;
   scene_real_required(scene, body, "young", &material->young);
   scene_real_required(scene, body, "poisson", &material->poisson);
-  if (material->young <= 0) scene_fail(scene, body, "young", "it must be positive, not %g.", (double)material->young);
-  if (material->poisson <= -1 || material->poisson >= 0.5)
-    scene_fail(scene, body, "poisson", "it must lie between -1 and 0.5 (both excluded), not %g.",
-               (double)material->poisson);
   scene_real(scene, body, "density", &material->density);
-  if (scene_has(scene, body, "density") && !(material->density > 0))
-    scene_fail(scene, body, "density", "it must be positive, not %g.", (double)material->density);
   scene_choice(scene, body, "material", law_names, &law);
   scene_choice(scene, body, "dilatation", dilatations, &dilatation);
   if (dilatation && space->kind == SPACE_PLANE_STRESS)

@@ -174,13 +174,11 @@ PetscErrorCode rigids_read_mass(Scene *scene, const Mesh *mesh, Rigid *rigid)
   PetscReal   density = 0, point[3] = {0, 0, 0}, sums[SUMS] = {0};
   PetscFunctionBegin;
   scene_real(scene, body->name, "mass", &rigid->mass);
-  if (rigid->mass < 0) scene_fail(scene, body->name, "mass", "it cannot be negative.");
   if (!scene_has(scene, body->name, "density")) {
     read_inertia(scene, mesh, rigid);
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   scene_real(scene, body->name, "density", &density);
-  if (!(density > 0)) scene_fail(scene, body->name, "density", "it must be positive.");
   if (scene_has(scene, body->name, "mass")) scene_fail(scene, body->name, "density", "there is a `mass` beside it: give one of them.");
   if (scene_has(scene, body->name, "inertia")) scene_fail(scene, body->name, "inertia", "`density` gives it already: leave one out.");
   if (body->analytic) scene_fail(scene, body->name, "density", "its surface is in closed form, and may have no end: give `mass` and `inertia`.");

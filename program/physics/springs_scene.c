@@ -100,16 +100,10 @@ static void read_stiffness(Scene *scene, const Mesh *mesh, Spring *spring)
   if (!scene_has(scene, spring->name, "stiffness")) scene_fail(scene, spring->name, "stiffness", "this key is missing.");
   if (spring->axial) {
     scene_real(scene, spring->name, "stiffness", k);
-    if (scene_has(scene, spring->name, "length")) {
-      scene_real(scene, spring->name, "length", &spring->length);
-      if (spring->length < 0) scene_fail(scene, spring->name, "length", "it cannot be negative, as %g is.", (double)spring->length);
-    }
+    scene_real(scene, spring->name, "length", &spring->length);
   } else {
     if (scene_has(scene, spring->name, "length")) scene_fail(scene, spring->name, "length", "only of an `axial` spring.");
     space_vector(scene, &mesh->space, spring->name, "stiffness", k);
-  }
-  for (int i = 0; i < 3; i++) {
-    if (k[i] < 0) scene_fail(scene, spring->name, "stiffness", "it cannot be negative, as %g is.", (double)k[i]);
   }
   if (k[0] + k[1] + k[2] <= 0) scene_fail(scene, spring->name, "stiffness", "it must be positive, at least in one direction.");
   for (int m = 0; m < 9 && !spring->axial; m++) {

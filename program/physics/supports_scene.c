@@ -241,7 +241,7 @@ PetscErrorCode supports_read(Scene *scene, Physics *physics)
     axis->mask  = 1;
     axis->rigid = -1;
     PetscCall(PetscSNPrintf(axis->name, NAME_LENGTH, "%s", ON_AXIS));
-    PetscCall(curve_read(scene, ON_AXIS, "curve", physics->end, &axis->curve));
+    PetscCall(curve_ramp(physics->end, &axis->curve));
     PetscCall(curve_copy(&axis->curve, &axis->rotate_curve));
   }
   PetscCall(PetscCalloc1(mesh->n_vertices, &physics->prescribed));

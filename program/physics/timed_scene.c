@@ -13,7 +13,6 @@ PetscErrorCode timed_read(Scene *scene, Physics *physics, Support *support)
   scene_real(scene, name, "until", &support->until);
   scene_real(scene, name, "fade", &support->fade);
   support->timed = (PetscBool)(support->from > 0 || until);
-  if (support->from < 0) scene_fail(scene, name, "from", "a run begins at t = 0, not at %g.", (double)support->from);
   if (from && support->from >= physics->end)
     scene_fail(scene, name, "from", "the run ends at t = %g: from %g on it would never hold.", (double)physics->end, (double)support->from);
   if (until && support->until > physics->end)
@@ -21,7 +20,6 @@ PetscErrorCode timed_read(Scene *scene, Physics *physics, Support *support)
                (double)support->until);
   if (support->until <= support->from) scene_fail(scene, name, "until", "it must be after `from`, %g.", (double)support->from);
   if (scene_has(scene, name, "fade") && !until) scene_fail(scene, name, "fade", "only with `until`: how long the reaction takes to fade.");
-  if (scene_has(scene, name, "fade") && support->fade < 0) scene_fail(scene, name, "fade", "it cannot be negative.");
   if (!support->timed) PetscFunctionReturn(PETSC_SUCCESS);
   if (support->from > 0 && support->rigid < 0 && (support->rotate[0] != 0 || support->rotate[1] != 0 || support->rotate[2] != 0))
     scene_fail(scene, name, "rotate", "a support that is activated moves nodes from where they are: it cannot turn them.");

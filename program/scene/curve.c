@@ -18,16 +18,24 @@ static PetscErrorCode note_late_curve(const char *map, const char *key, PetscRea
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode curve_ramp(PetscReal end, Curve *curve)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(4, &curve->points));
+  curve->points[2] = end;
+  curve->points[3] = 1;
+  curve->n         = 2;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode curve_read(Scene *scene, const char *map, const char *key, PetscReal end, Curve *curve)
 {
   PetscInt n;
   PetscFunctionBegin;
   scene_reals(scene, map, key, &n, &curve->points);
   if (!n) {
-    PetscCall(PetscCalloc1(4, &curve->points));
-    curve->points[2] = end;
-    curve->points[3] = 1;
-    n                = 4;
+    PetscCall(curve_ramp(end, curve));
+    PetscFunctionReturn(PETSC_SUCCESS);
   }
   if (n % 2)
     scene_fail(scene, map, key, "pairs [t0, v0, t1, v1, ...] are expected, but there are %d numbers.", (int)n);

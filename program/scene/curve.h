@@ -10,6 +10,7 @@ typedef struct {
 
 /* map.key; without it a ramp from 0 at t = 0 to 1 at t = end */
 PetscErrorCode curve_read(Scene *scene, const char *map, const char *key, PetscReal end, Curve *curve);
+PetscErrorCode curve_ramp(PetscReal end, Curve *curve); /* such a ramp */
 PetscErrorCode curve_copy(const Curve *from, Curve *to);
 PetscReal      curve_value(const Curve *curve, PetscReal t);
 void           curve_slopes(const Curve *curve, PetscReal t, PetscReal slopes[2]); /* just before t, just after */

@@ -70,10 +70,47 @@ PetscErrorCode scene_root_end(Scene *scene)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+const char *scene_item(const Scene *scene, const char *map)
+{
+  if (!map) return "scene";
+  for (PetscInt k = 0; k < scene->n_names; k++) {
+    if (!strcmp(scene->names[k], map)) return scene->lists[k];
+  }
+  if (!strcmp(map, "all")) return "interfaces"; /* of general contact */
+  return keys_has_item(map) ? map : NULL;
+}
+
+/* The row of a key; NULL: the item is not known yet. A key without a row is a fault of the program. */
+static const Key *find_row(Scene *scene, const char *map, const char *key)
+{
+  const char *item = scene_item(scene, map);
+  const Key  *row  = item ? keys_find(item, key, NULL) : NULL;
+  if (item && !row && strchr(key, '.')) row = keys_find(item, "default", NULL); /* a pair of names */
+  if (item && !row)
+    scene_fail(scene, map, key, "a fault of the program: it asks for this key, which is not in its table of keys, among those of `%s`.", item);
+  return row;
+}
+
+/* The row of a key that is read as one of these kinds. */
+static const Key *row_of(Scene *scene, const char *map, const char *key, KeyKind from, KeyKind to)
+{
+  const Key *row = find_row(scene, map, key);
+  if (row && (row->kind < from || row->kind > to))
+    scene_fail(scene, map, key, "a fault of the program: it reads this key as something else than its table of keys says.");
+  return row;
+}
+
+/* The default, where the table has it as a number. */
+static PetscBool default_of(const Key *row, double *value)
+{
+  return (PetscBool)(row && keys_default(row, value));
+}
+
 PetscBool scene_has(Scene *scene, const char *map, const char *key)
 {
   char      name[2 * NAME_LENGTH + 3];
   PetscBool set, seen = PETSC_FALSE;
+  (void)find_row(scene, map, key);
   flat_name(map, key, name, sizeof(name));
   for (PetscInt k = 0; k < scene->n_asked && !seen; k++)
     seen = (PetscBool)!strcmp(scene->asked[k], name + 1);
@@ -137,6 +174,7 @@ static const char *find_list(Scene *scene, const char *map, const char *key, con
 void scene_reals(Scene *scene, const char *map, const char *key, PetscInt *n, PetscReal **values)
 {
   char        name[2 * NAME_LENGTH + 3];
+  const Key  *row  = row_of(scene, map, key, KEY_NUMBER, KEY_CURVE);
   const char *text = find_list(scene, map, key, "numbers", sizeof(name), name, n);
   PetscBool   set;
   *values = NULL;
@@ -147,6 +185,11 @@ void scene_reals(Scene *scene, const char *map, const char *key, PetscInt *n, Pe
   for (PetscInt k = 0; k < *n; k++) {
     if (PetscIsInfOrNanReal((*values)[k]))
       scene_fail(scene, map, key, "finite numbers are expected, not '%s'.", raw(map, key));
+    if (row && !keys_allows(row, (double)(*values)[k])) {
+      char range[128];
+      keys_say_range(&row->range, range, sizeof(range));
+      scene_fail(scene, map, key, "%g is not allowed; it must be %s.", (double)(*values)[k], range);
+    }
   }
 }
 
@@ -181,7 +224,8 @@ PetscBool scene_counts(Scene *scene, const char *map, const char *key, PetscInt 
 
 void scene_real(Scene *scene, const char *map, const char *key, PetscReal *value)
 {
-  scene_vector(scene, map, key, 1, value);
+  double otherwise;
+  if (!scene_vector(scene, map, key, 1, value) && default_of(find_row(scene, map, key), &otherwise)) *value = (PetscReal)otherwise;
 }
 
 void scene_real_required(Scene *scene, const char *map, const char *key, PetscReal *value)
@@ -192,13 +236,17 @@ void scene_real_required(Scene *scene, const char *map, const char *key, PetscRe
 
 void scene_int(Scene *scene, const char *map, const char *key, PetscInt *value)
 {
-  scene_counts(scene, map, key, 1, value);
+  double otherwise;
+  if (!scene_counts(scene, map, key, 1, value) && default_of(find_row(scene, map, key), &otherwise)) *value = (PetscInt)otherwise;
 }
 
 void scene_bool(Scene *scene, const char *map, const char *key, PetscBool *value)
 {
-  char      name[2 * NAME_LENGTH + 3];
-  PetscBool set;
+  const Key *row = row_of(scene, map, key, KEY_SWITCH, KEY_SWITCH);
+  char       name[2 * NAME_LENGTH + 3];
+  PetscBool  set;
+  double     otherwise;
+  if (default_of(row, &otherwise)) *value = (PetscBool)(otherwise != 0);
   if (!scene_has(scene, map, key)) return;
   flat_name(map, key, name, sizeof(name));
   READ(PetscOptionsGetBool(NULL, NULL, name, value, &set), "true or false is expected, not '%s'.", raw(map, key));
@@ -208,6 +256,7 @@ void scene_string(Scene *scene, const char *map, const char *key, char value[], 
 {
   char      name[2 * NAME_LENGTH + 3];
   PetscBool set;
+  (void)row_of(scene, map, key, KEY_WORD, KEY_FILE);
   if (!scene_has(scene, map, key)) return;
   flat_name(map, key, name, sizeof(name));
   Must(PetscOptionsGetString(NULL, NULL, name, value, length, &set));
@@ -221,9 +270,23 @@ void scene_string_required(Scene *scene, const char *map, const char *key, char 
   scene_string(scene, map, key, value, length);
 }
 
+/* Of words to choose from, which must all be in the key's row, the number of the row's default; -1: that is said in words. */
+static PetscInt default_choice(Scene *scene, const char *map, const char *key, const char *const choices[])
+{
+  const Key *row    = row_of(scene, map, key, KEY_WORD, KEY_WORD);
+  PetscInt   number = -1;
+  for (PetscInt k = 0; choices[k] && row; k++) {
+    if (!keys_has_word(row, choices[k])) scene_fail(scene, map, key, "a fault of the program: its table of keys lacks '%s'.", choices[k]);
+    if (!strcmp(row->otherwise, choices[k])) number = k;
+  }
+  return number;
+}
+
 void scene_choice(Scene *scene, const char *map, const char *key, const char *const choices[], PetscInt *value)
 {
-  char word[512] = "", allowed[512] = "";
+  const PetscInt otherwise = default_choice(scene, map, key, choices);
+  char           word[512] = "", allowed[512] = "";
+  if (otherwise >= 0) *value = otherwise;
   if (!scene_has(scene, map, key)) return;
   scene_string(scene, map, key, word, sizeof(word));
   for (PetscInt k = 0; choices[k]; k++) {
@@ -241,6 +304,7 @@ void scene_strings(Scene *scene, const char *map, const char *key, PetscInt *n, 
   char      name[2 * NAME_LENGTH + 3];
   PetscBool set;
   *values = NULL;
+  (void)row_of(scene, map, key, KEY_WORD, KEY_LIST);
   if (!find_list(scene, map, key, "names", sizeof(name), name, n)) return;
   Must(PetscCalloc1(*n, values));
   Must(PetscOptionsGetStringArray(NULL, NULL, name, *values, n, &set));

@@ -2,8 +2,8 @@
  *
  * The file is walked once with libyaml, so that every key is known by its dotted name and line; then PETSc flattens it into
  * its options database ("block: {young: 1}" becomes -block_young 1), where the command line overrides it. Every reader
- * below takes a map (NULL: top level) and a key, checks the type, and remembers what it asked for. At the end
- * scene_check_unread() refuses every key that nobody asked for.
+ * below takes a map (NULL: top level) and a key, finds its row in the table of keys (keys.h), checks kind and range by it, and
+ * remembers what it asked for. At the end scene_check_unread() refuses every key that nobody asked for.
  *
  * A wrong scene ends the program with exit code 1 and one sentence; no reader returns a half-read value. */
 #ifndef STICKSLIP_PROGRAM_SCENE_H
@@ -40,7 +40,8 @@ PetscBool scene_has(Scene *scene, const char *map, const char *key);
 /* ... or a key of this map? */
 PetscBool scene_has_map(const char *map);
 
-/* Readers leave the default in place when the key is missing; the *_required ones fail instead. */
+/* When the key is missing, readers of one value give the default of its row; where that is said in words, they leave what is there.
+ * The *_required ones fail instead. */
 void scene_real(Scene *scene, const char *map, const char *key, PetscReal *value);
 void scene_real_required(Scene *scene, const char *map, const char *key, PetscReal *value);
 void scene_int(Scene *scene, const char *map, const char *key, PetscInt *value);
@@ -57,6 +58,8 @@ void scene_strings(Scene *scene, const char *map, const char *key, PetscInt *n, 
 void strings_destroy(PetscInt n, char ***values);
 /* a list that declares names, each with a map of its own: [a-z0-9]+, unique in the whole scene, not reserved */
 void scene_names(Scene *scene, const char *list, PetscInt *n, char ***names);
+/* refuses values and lists where the table of keys has a map */
+void scene_check_maps(Scene *scene);
 
 /* what the scene says, the command line included: a line for each key that was asked for and is given, but for those that may change
  * between a run and its continuation; freed with PetscFree */

@@ -140,6 +140,7 @@ PetscErrorCode scene_close(Scene **scene)
   free((*scene)->keys);
   free((*scene)->asked);
   free((*scene)->names);
+  free((*scene)->lists);
   free(*scene);
   *scene = NULL;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -6,13 +6,11 @@ void space_read(Scene *scene, Space *space)
   static const char *const kinds[] = {"solid", "plane_strain", "plane_stress", "axisymmetric", NULL}; /* by SPACE_... */
   PetscInt                 kind    = SPACE_SOLID;
   scene_choice(scene, NULL, "model", kinds, &kind);
-  space->kind      = (SpaceKind)kind;
-  space->thickness = 1;
+  space->kind = (SpaceKind)kind;
   scene_real(scene, NULL, "thickness", &space->thickness);
   if (!scene_has(scene, NULL, "thickness")) return;
   if (kind != SPACE_PLANE_STRAIN && kind != SPACE_PLANE_STRESS)
     scene_fail(scene, NULL, "thickness", "only of `model: plane_strain` and `plane_stress`.");
-  if (!(space->thickness > 0)) scene_fail(scene, NULL, "thickness", "it must be positive, not %g.", (double)space->thickness);
 }
 
 /* `rows` vectors one after the other, each with two numbers in the plane, into three each */

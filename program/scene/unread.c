@@ -24,20 +24,67 @@ static size_t distance(const char *a, const char *b)
   return row[n];
 }
 
-/* The maps that every scene may have, the first N_OWN of them not PETSc's */
-static const char *const MAPS[] = {"frame", "steps", "output", "dynamics", "snes", "ksp", "pc", "mat"};
-enum { N_OWN = 4, N_MAPS = sizeof(MAPS) / sizeof(MAPS[0]) };
+/* Is it a map of the scene itself? */
+static PetscBool is_map(const char *name)
+{
+  const Key *row = keys_find("scene", name, NULL);
+  return (PetscBool)(row && row->kind == KEY_MAP);
+}
 
-/* The lists of names, which are no maps */
-static const char *const LISTS[] = {"bodies", "surfaces", "supports", "loads", "interfaces", "probes"};
-enum { N_LISTS = sizeof(LISTS) / sizeof(LISTS[0]) };
+static PetscBool is_declared(const Scene *scene, const char *name)
+{
+  for (PetscInt k = 0; k < scene->n_names; k++) {
+    if (!strcmp(scene->names[k], name)) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
+static void take_closer(const char *word, const char *name, size_t *best, const char **closest)
+{
+  const size_t d = distance(word, name);
+  if (d >= *best) return;
+  *best    = d;
+  *closest = name;
+}
+
+/* A map that nothing declares. */
+static void say_undeclared(const Scene *scene, const char *map, char text[], size_t length)
+{
+  const char     *closest = NULL;
+  size_t          best    = 3, used = 0; /* three wrong letters are no typo */
+  char            lists[256] = "";
+  const KeyTable *table;
+  for (PetscInt k = 0; k < scene->n_names; k++)
+    take_closer(map, scene->names[k], &best, &closest);
+  for (size_t t = 0; (table = keys_table(t)); t++) {
+    for (size_t k = 0; k < table->n && !strcmp(table->item, "scene"); k++) {
+      const Key *row = &table->keys[k];
+      if (row->kind == KEY_MAP) take_closer(map, row->key, &best, &closest);
+      if (row->kind == KEY_LIST) used += (size_t)snprintf(lists + used, sizeof(lists) - used, "%s%s", used ? ", " : "", row->key);
+    }
+  }
+  if (closest)
+    snprintf(text, length, "nothing is called '%s'; did you mean '%s'?", map, closest);
+  else
+    snprintf(text, length, "nothing is called '%s': list the name in one of %s.", map, lists);
+}
+
+/* A key that the table has, but that is not read here, where other keys say otherwise; false: the table has none. */
+static PetscBool say_elsewhere(const char *item, const char *word, char text[], size_t length)
+{
+  const KeyTable *table;
+  const Key      *row = item ? keys_find(item, word, &table) : NULL;
+  if (row) snprintf(text, length, "it is a key of \"%s\" (%s), and what else is said here does not ask for it.", table->title, table->page);
+  return (PetscBool)(row != NULL);
+}
 
 static void fail_unread(Scene *scene, const SceneKey *key)
 {
-  char        allowed[1024] = "", text[1400], map[256] = "";
-  const char *word = strchr(key->dotted, '.'), *closest = NULL;
-  size_t      best     = 3, length; /* three wrong letters are no typo */
-  PetscBool   declared = PETSC_FALSE;
+  char            allowed[1024] = "", text[1800], where[256], map[256] = "";
+  const char     *word = strchr(key->dotted, '.'), *closest = NULL, *item;
+  size_t          best     = 3, length;
+  PetscBool       declared = PETSC_FALSE;
+  const KeyTable *table;
 
   if (scene_is_solver_key(key->dotted))
     scene_fail_at(scene, (size_t)key->line, key->dotted,
@@ -49,36 +96,24 @@ static void fail_unread(Scene *scene, const SceneKey *key)
     const char *name = scene->asked[k] + length;
     if (strncmp(scene->asked[k], key->flat, length) || (!length && strchr(name, '_'))) continue;
     declared = PETSC_TRUE;
-    if (distance(word, name) < best) {
-      best    = distance(word, name);
-      closest = name;
-    }
+    take_closer(word, name, &best, &closest);
     snprintf(allowed + strlen(allowed), sizeof(allowed) - strlen(allowed), "%s%s", allowed[0] ? ", " : "", name);
   }
-  for (int k = 0; k < N_LISTS && length; k++) {
-    if (!strcmp(map, LISTS[k]))
-      scene_fail_at(scene, (size_t)key->line, map, "a list of names is expected here, and a map for each at the top level.");
+  if (length && keys_find("scene", map, NULL) && keys_find("scene", map, NULL)->kind == KEY_LIST)
+    scene_fail_at(scene, (size_t)key->line, map, "a list of names is expected here, and a map for each at the top level.");
+  item = scene_item(scene, length ? map : NULL);
+  for (size_t t = 0; item && (table = keys_table(t)); t++) {
+    for (size_t k = 0; k < table->n && !strcmp(table->item, item); k++)
+      take_closer(word, table->keys[k].key, &best, &closest);
   }
-  if (!declared) {
-    for (PetscInt k = 0; k < N_MAPS + scene->n_names; k++) {
-      const char *name = k < N_MAPS ? MAPS[k] : scene->names[k - N_MAPS];
-      if (distance(map, name) < best) {
-        best    = distance(map, name);
-        closest = name;
-      }
-    }
-    if (closest)
-      snprintf(text, sizeof(text), "nothing is called '%s'; did you mean '%s'?", map, closest);
-    else
-      snprintf(text, sizeof(text),
-               "nothing is called '%s': list the name in bodies, surfaces, supports, loads, springs, interfaces or probes.",
-               map);
-  } else if (closest) {
-    snprintf(text, sizeof(text), "unknown key; did you mean '%.*s%s'? Allowed here: %s.", (int)length, key->dotted,
-             closest, allowed);
-  } else {
+  if (!declared)
+    say_undeclared(scene, map, text, sizeof(text));
+  else if (say_elsewhere(item, word, where, sizeof(where)))
+    snprintf(text, sizeof(text), "nothing reads this key: %s Allowed here: %s.", where, allowed);
+  else if (closest)
+    snprintf(text, sizeof(text), "unknown key; did you mean '%.*s%s'? Allowed here: %s.", (int)length, key->dotted, closest, allowed);
+  else
     snprintf(text, sizeof(text), "unknown key. Allowed here: %s.", allowed);
-  }
   scene_fail_at(scene, (size_t)key->line, key->dotted, text);
 }
 
@@ -90,14 +125,13 @@ static void check_command_line(Scene *scene)
 
   PetscCallAbort(PETSC_COMM_WORLD, PetscOptionsLeftGet(NULL, &n, &options, &values));
   for (PetscInt k = 0; k < n; k++) {
-    for (PetscInt j = 0; j < N_OWN + scene->n_names; j++) {
-      const char *map    = j < N_OWN ? MAPS[j] : scene->names[j - N_OWN];
-      size_t      length = strlen(map);
-      char        dotted[256];
-      if (strncmp(options[k], map, length) || options[k][length] != '_') continue;
-      snprintf(dotted, sizeof(dotted), "%s.%.120s", map, options[k] + length + 1);
-      fail_unread(scene, &(SceneKey){.dotted = dotted, .flat = options[k], .line = 0});
-    }
+    const size_t length = strcspn(options[k], "_");
+    char         map[128], dotted[256];
+    if (!options[k][length] || length >= sizeof(map)) continue;
+    snprintf(map, sizeof(map), "%.*s", (int)length, options[k]);
+    snprintf(dotted, sizeof(dotted), "%s.%.120s", map, options[k] + length + 1);
+    if (scene_is_solver_key(dotted) || !(is_map(map) || is_declared(scene, map))) continue;
+    fail_unread(scene, &(SceneKey){.dotted = dotted, .flat = options[k], .line = 0});
   }
   PetscCallAbort(PETSC_COMM_WORLD, PetscOptionsLeftRestore(NULL, &n, &options, &values));
 }

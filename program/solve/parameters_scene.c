@@ -69,7 +69,6 @@ static void read_parameter(Scene *scene, const Solve *solve, Parameter *paramete
                parameter->kind < PARAMETER_YOUNG ? "interface" : KINDS[parameter->kind], of);
   check(scene, solve, parameter, of);
   scene_real(scene, name, "deviation", &parameter->deviation);
-  if (parameter->deviation < 0) scene_fail(scene, name, "deviation", "a standard deviation is not negative.");
 }
 
 void sensitivity_refuse(Scene *scene, const Solve *solve, PetscBool wrong, const char *what)

@@ -11,15 +11,11 @@ static void read_automatic(Scene *scene, Steps *steps)
   }
   steps->largest = 0.1 * steps->end;
   scene_real(scene, "steps", "largest", &steps->largest);
-  if (steps->largest <= 0) scene_fail(scene, "steps", "largest", "it must be positive.");
   steps->initial = steps->largest;
   scene_real(scene, "steps", "initial", &steps->initial);
-  if (steps->initial <= 0 || steps->initial > steps->largest)
-    scene_fail(scene, "steps", "initial", "it must be positive, and no more than the largest, %g.",
-               (double)steps->largest);
-  steps->iterations = 6;
+  if (steps->initial > steps->largest)
+    scene_fail(scene, "steps", "initial", "it must be no more than the largest, %g.", (double)steps->largest);
   scene_int(scene, "steps", "iterations", &steps->iterations);
-  if (steps->iterations < 1) scene_fail(scene, "steps", "iterations", "at least one iteration is needed.");
 }
 
 /* `times`, each of them; `stages`, pairs of a time and the number of equal steps up to it; or `end` and `count` */
@@ -27,8 +23,8 @@ static PetscErrorCode read_targets(Scene *scene, Steps *steps)
 {
   static const char *const equal[] = {"end", "count"};
   const PetscBool          staged  = scene_has(scene, "steps", "stages");
-  PetscReal      *stages, whole[2] = {1, 1}, start = 0;
-  PetscInt        n_stages, count = 1, n = 0;
+  PetscReal      *stages, whole[2] = {0, 0}, start = 0;
+  PetscInt        n_stages, count = 0, n = 0;
 
   PetscFunctionBegin;
   scene_reals(scene, "steps", "times", &steps->n_targets, &steps->targets);
@@ -43,8 +39,6 @@ static PetscErrorCode read_targets(Scene *scene, Steps *steps)
   if (!staged) {
     scene_int(scene, "steps", "count", &count);
     scene_real(scene, "steps", "end", &whole[0]);
-    if (count < 1) scene_fail(scene, "steps", "count", "at least one step is needed.");
-    if (whole[0] <= 0) scene_fail(scene, "steps", "end", "it must be positive.");
     whole[1] = count;
     n_stages = 2;
   }
@@ -71,11 +65,6 @@ static PetscErrorCode read_targets(Scene *scene, Steps *steps)
 PetscErrorCode times_read(Scene *scene, Steps *steps)
 {
   PetscFunctionBegin;
-  steps->predictor = PETSC_TRUE;
-  steps->cycles    = PETSC_TRUE;
-  steps->closing   = PETSC_TRUE;
-  steps->smallest  = 1.0 / 1024;
-  steps->lever     = 2;
   PetscCall(read_targets(scene, steps));
   for (PetscInt k = 0; k < steps->n_targets; k++) {
     if (steps->targets[k] <= (k ? steps->targets[k - 1] : 0))
@@ -88,9 +77,6 @@ PetscErrorCode times_read(Scene *scene, Steps *steps)
   scene_bool(scene, "steps", "closing", &steps->closing);
   scene_real(scene, "steps", "smallest", &steps->smallest);
   scene_real(scene, "steps", "lever", &steps->lever);
-  if (!(steps->lever >= 1)) scene_fail(scene, "steps", "lever", "it is at least 1.");
-  if (steps->smallest <= 0 || steps->smallest > 1)
-    scene_fail(scene, "steps", "smallest", "it is a fraction of a step: above 0, at most 1.");
   read_automatic(scene, steps);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -229,7 +229,7 @@ def refused(cases):
         ("another word", falling(contact="some"), "contact: all", {}),
         ("a name that is none", {**falling(), "except": ["blok"]}, "blok", {}),
         ("nothing left", {**falling(), "except": ["block", "base"]}, "no body is left", {}),
-        ("negative friction", falling(friction=-1), "cannot be negative", {}),
+        ("negative friction", falling(friction=-1), "it must be at least 0", {}),
         ("friction of what is no pair", falling(friction={"block.bas": 0.3}), "block.bas", {}),
         ("tied", falling(all={"law": "tied"}), "an interface of its own", {}),
         ("displacements alone", falling(unknowns="displacements"), "multipliers among the unknowns", {}),

@@ -231,7 +231,7 @@ def refused(verdicts, driver):
     for what, changes, says in (
         ("that is given what it follows", {"temperatures": ["hot", "cold"], "cold": {"surface": "lower.surface", "value": COLD}}, "'lower' has a `heat_capacity`"),
         ("with a flow", {"flows": ["burner"], "burner": {"surface": "lower.surface", "flow": 1.0}}, "burner.surface: 'lower.surface' is without faces"),
-        ("of negative capacity", {"lower": {**stored["lower"], "heat_capacity": -1.0}}, "lower.heat_capacity: it must not be negative"),
+        ("of negative capacity", {"lower": {**stored["lower"], "heat_capacity": -1.0}}, "lower.heat_capacity: -1 is not allowed; it must be at least 0"),
     ):
         for ranks in (1, 2):
             run = driver.run(write({**stored, **changes}, driver.output / "refused.yaml"), label="refused", expect=1, ranks=ranks)

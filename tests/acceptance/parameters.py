@@ -194,7 +194,7 @@ def refused(verdicts, driver):
         ("none", {"mu": {"deviation": 1}}, "what is it of?"),
         ("nobody", {"mu": {"friction": "nobody"}}, "there is no interface 'nobody'"),
         ("name", {"parameters": ["deviation"], "deviation": {"friction": "contact"}}, "something else that is called 'deviation'"),
-        ("negative", {"mu": {"friction": "contact", "deviation": -1}}, "is not negative"),
+        ("negative", {"mu": {"friction": "contact", "deviation": -1}}, "it must be at least 0"),
         ("condensed", {"unknowns": "displacements"}, "do not go with `unknowns: displacements` yet"),
         ("springs", {"springs": ["bed"], "bed": {"surface": "upper.zmax", "stiffness": [1, 1, 1]}}, "do not go with `springs` yet"),
         ("paper", {"method": "paper"}, "do not go with"),

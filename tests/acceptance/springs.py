@@ -315,7 +315,7 @@ def refused(verdicts, driver):
     hold = {"surface": "block.zmin", "stiffness": [1, 1, 1]}
     for what, spring, says in (
         ("without a stiffness", {"surface": "block.zmin"}, "spring.stiffness: this key is missing"),
-        ("that pushes apart", {**hold, "stiffness": [1, -1, 1]}, "spring.stiffness: it cannot be negative"),
+        ("that pushes apart", {**hold, "stiffness": [1, -1, 1]}, "spring.stiffness: -1 is not allowed; it must be at least 0"),
         ("on nothing", {"stiffness": [1, 1, 1]}, "spring.surface: say what the spring holds"),
         ("of too many nodes", {**hold, "to": "block.zmax"}, "spring.surface: its ends have 882 nodes"),
         ("on itself", {"body": "block", "point": [0, 0, 0], "to": "block", "to_point": [0, 0, 0], "stiffness": [1, 1, 1]}, "both ends are the same"),

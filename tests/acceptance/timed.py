@@ -242,7 +242,7 @@ def refused(verdicts, driver):
         ("that ends before it begins", bar(draw={**draw, "from": 1, "until": 0.5}), "draw.until: it must be after `from`, 1"),
         ("beyond the run", bar(draw={**draw, "until": 2.5}), "draw.until: the run ends at t = 2, before 2.5"),
         ("after the run", bar(draw={**{k: v for k, v in draw.items() if k != "until"}, "from": 2}), "draw.from: the run ends at t = 2"),
-        ("before the run", bar(draw={**draw, "from": -1}), "draw.from: a run begins at t = 0"),
+        ("before the run", bar(draw={**draw, "from": -1}), "draw.from: -1 is not allowed; it must be at least 0"),
         ("that fades and stays", bar(draw={**{k: v for k, v in draw.items() if k != "until"}, "fade": 1}), "draw.fade: only with `until`"),
         ("that turns from where it is", bar(draw={**draw, "from": 0.5, "rotate": [1, 0, 0]}), "draw.rotate: a support that is activated"),
         ("on a node of another one", bar(supports=["wall", "rails", "draw", "other"], other=draw), "other.components: 'draw' holds one of its vertices"),
