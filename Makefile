@@ -240,7 +240,7 @@ packages:
 	@packaging/packages.sh $(BUILD)/packages
 
 # What to run before each commit; the scenes are those that show most in little time.
-CHECKED = ^(abi|accept_patch|accept_block|accept_errors|petsc_block|capi_t10_pair_weights|fortran_t10_pair_weights)$$
+CHECKED = ^(abi|keys_test|keys_pages|accept_patch|accept_block|accept_errors|petsc_block|capi_t10_pair_weights|fortran_t10_pair_weights)$$
 check:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory rust-tests reference
