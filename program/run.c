@@ -171,9 +171,6 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
     closing_find(&model->solve);
   }
   PetscCall(supports_values(&model->physics, t));
-  PetscCall(heat_begin(&model->heat, t));
-  PetscCall(fluid_begin(&model->physics));
-  if (model->physics.dynamics) PetscCall(dynamics_begin(&model->physics));
   PetscCall(offsets_values(&model->contact, t, &refused));
   run->offsets = (PetscBool)(refused != 0);
   if (refused) {
@@ -184,6 +181,10 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
     PetscCall(summary_failed_attempt(&model->output, run->summary, run->past.t_last));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
+  PetscCall(settle_loose(&model->solve, &run->past)); /* what is warm turns, too */
+  PetscCall(heat_begin(&model->heat, t));
+  PetscCall(fluid_begin(&model->physics));
+  if (model->physics.dynamics) PetscCall(dynamics_begin(&model->physics));
   PetscCall(solve_determined(model, run, done));
   PetscCall(solve_on(model, run, done));
   if (*done) PetscCall(timed_catch(&model->physics));

@@ -19,10 +19,13 @@ mesh() {
     echo "$output  $(wc -c < "$output") bytes"
 }
 
-# A pin joint.
+# A pin joint, and a chain of two.
 mesh joint_lug.msh  joint.geo part 1
 mesh joint_fork.msh joint.geo part 2
 mesh joint_pin.msh  joint.geo part 3
+mesh joint_link.msh joint.geo part 4
+mesh joint_end.msh  joint.geo part 5
+mesh joint_pin_2.msh joint.geo part 3 at 6
 
 # Upper body: non-mortar side. Lower body: mortar side, wider and coarser, so that no facet matches.
 mesh hertz_upper_coarse.msh hertz_cylinder.geo side  1 contact_facets 44 half_width 1.4

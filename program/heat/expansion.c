@@ -15,7 +15,7 @@ PetscErrorCode expansion_create(Heat *heat)
   PetscCall(VecDuplicate(physics->u_local, &physics->f_thermal));
   PetscCall(VecZeroEntries(physics->f_thermal));
   for (PetscInt b = 0; b < heat->mesh->n_bodies; b++)
-    any = (PetscBool)(any || swells(heat, b));
+    any = (PetscBool)(any || heat->bodies[b].expansion != 0); /* linear bodies that are laid down grow so, too */
   if (any) PetscCall(PetscCalloc1(physics->cells.offsets[physics->cells.n], &physics->cells.swell));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -42,7 +42,6 @@ static CellKind look_at(const Physics *physics, const Piece *piece, PetscInt c, 
   const PetscInt first = physics->cells.offsets[c], n = physics->cells.offsets[c + 1] - first;
   for (PetscInt k = 0; k < 3 * n; k++)
     u[k] = PetscRealPart(piece->displacements[3 * piece->connectivity[first + k / 3] + k % 3]);
-  laid_take(physics, c, u);
   return cell_kind(physics->mesh->dimension, n);
 }
 

@@ -161,8 +161,7 @@ static PetscErrorCode looked(const Physics *physics, View *view)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* u_cell: the sizes of displacements at u_local, or of those that strain a body that was laid down, whichever are larger: what is rounded.
- * K: NULL: not wanted */
+/* u_cell: the displacements at u_local. K: NULL: not wanted */
 static PetscErrorCode evaluate(const Physics *physics, PetscInt c, const View *view, PetscReal u_cell[], PetscReal f[], PetscReal K[], PetscBool *inverted)
 {
   const Element element = bulk_element(physics, c);
@@ -171,12 +170,7 @@ static PetscErrorCode evaluate(const Physics *physics, PetscInt c, const View *v
   PetscFunctionBegin;
   cell_displacements(physics, c, view->u, u_cell);
   if (!view->step || !element.material->law->finite) {
-    PetscReal strains[3 * CELL_NODES];
-    cell_displacements(physics, c, view->u, strains);
-    laid_take(physics, c, strains);
-    PetscCall(cell_forces(&element, strains, f, K, inverted));
-    for (PetscInt k = 0; k < 3 * cell_nodes(element.kind); k++)
-      u_cell[k] = PetscMax(PetscAbsReal(u_cell[k]), PetscAbsReal(strains[k]));
+    PetscCall(cell_forces(&element, u_cell, f, K, inverted));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   cell_displacements(physics, c, view->from, from);

@@ -52,8 +52,6 @@ PetscErrorCode physics_destroy(Physics *physics)
   PetscCall(PetscFree(parts->group_starts));
   PetscCall(PetscFree(parts->grouped));
   PetscCall(PetscFree6(cells->offsets, cells->dofs, cells->body, cells->part, cells->X, cells->stiffness));
-  PetscCall(PetscFree(cells->laid));
-  PetscCall(PetscFree(physics->laid));
   PetscCall(PetscFree(cells->swell));
   PetscCall(VecDestroy(&physics->u_local));
   PetscCall(VecDestroy(&physics->f_local));

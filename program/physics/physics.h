@@ -110,7 +110,6 @@ typedef struct {
 typedef struct {
   PetscInt   n, *offsets, *dofs, *body, *part; /* dofs: local offset of each node */
   PetscReal *X, *stiffness;                    /* coordinates of the nodes; stiffness at rest */
-  PetscReal *laid;                             /* displacements of each node that strain nothing, X is where they lead: laid.c; NULL: none */
   PetscReal *swell;                            /* of each node: strain without stress; NULL: nothing of finite strain expands */
 } Cells;
 
@@ -136,9 +135,6 @@ typedef struct {
   PetscInt   n_groups, *group_starts, *grouped;
 } Parts;
 
-/* A rigid motion, x -> R x + d: R, row by row, and d */
-enum { LAID_NUMBERS = 12 };
-
 /* What a body of the linear material was strained and turned by, up to now (range.c) */
 typedef struct {
   PetscReal strain, rotation;
@@ -149,7 +145,6 @@ typedef struct {
   Mesh     *mesh;
   PetscReal end, t; /* of the run; the time that the values below belong to */
   Material *materials; /* per body */
-  PetscReal *laid;     /* LAID_NUMBERS per part: how it was laid down (laid.c); NULL: nothing was */
   PetscInt  n_supports, n_loads;
   Support  *supports;
   Load     *loads;
@@ -338,11 +333,8 @@ typedef struct {
   PetscBool damping_only;
 } BulkStep;
 
-/* laid.c: parts that are moved as a whole before anything strains them; takes from a cell's displacements what strains nothing */
-void           laid_compose(const PetscReal first[LAID_NUMBERS], const PetscReal second[LAID_NUMBERS], PetscReal both[LAID_NUMBERS]);
-PetscErrorCode laid_move(Physics *physics, PetscInt part, const PetscReal motion[LAID_NUMBERS]);
-void           laid_take(const Physics *physics, PetscInt cell, PetscReal u[]);
-PetscReal      laid_first(const Cells *cells, PetscInt number); /* a coordinate of a node of the cells, where it was at first */
+/* laid.c: the body of a part that is laid down, and turned, knows turns from now on */
+void           laid_turn(Physics *physics, PetscInt part);
 PetscErrorCode laid_archive(Physics *physics, Archive *archive);
 
 /* bulk.c */

@@ -99,7 +99,6 @@ static PetscErrorCode measure(const Physics *physics, Vec u_local, PetscReal lar
       held               = (PetscBool)(held && entry_held(physics, dof));
     }
     if (held) continue;
-    laid_take(physics, c, u);
     cell_centre_gradient(&element, u, H);
     PetscCall(decompose(H, &strain, &rotation));
     largest[2 * b]     = PetscMax(largest[2 * b], strain);

@@ -16,6 +16,9 @@
 /* e while a body is loose, how it shrinks, to what, and the least otherwise: a direction of motion that is not made of rounding, and
  * hardly any change of the step. From 1e-13 to 1e-4 all scenes converge, at 1e-2 they do not. */
 static const PetscReal LOOSE = 1e-6, SHRINKAGE = 1e-2, LEAST = 1e-10, HELD = 1e-13;
+/* In proportion to the residual, where bodies have been laid down: they touch at a few nodes each, which leave them to roll and swing as Newton's
+ * method likes. A pin's clearance is a small part of what the loads would roll it by with less; with a hundred times as much it crawls. */
+static const PetscReal LAID = 1e-4;
 /* How deep a step may lead into contact, over a facet's edge, and by what factor less once a body that touched is loose
  * again: under a small force such a penetration throws it back. */
 static const PetscReal DEPTH = 0.1, SHALLOWER = 0.1;
@@ -197,7 +200,8 @@ static PetscErrorCode held_shift(Solve *solve, PetscReal *shift)
   PetscCall(VecNorm(residual, NORM_2, &now));
   PetscCall(SNESGetIterationNumber(solve->snes, &iteration));
   if (!iteration) closing->pressing = now;
-  *shift = now < closing->pressing ? PetscMax(HELD, LOOSE * now / closing->pressing) : LOOSE;
+  *shift = solve->newton.laid ? LAID : LOOSE;
+  if (now < closing->pressing) *shift = PetscMax(HELD, *shift * now / closing->pressing);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

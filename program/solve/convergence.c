@@ -22,6 +22,8 @@ static const PetscReal NEARER = 0.01;
 static const PetscReal GAINS = 0.01;
 /* A residual that grows by this has thrown the bodies about. */
 static const PetscReal THROWN = 100;
+/* Bodies that are thrown as far as this do not come back, and what they may touch is looked for all over the model, which takes long. */
+static const PetscReal GONE = 1e12;
 
 /* rank 0: a cycle for the report, and as a sentence */
 static PetscErrorCode report_cycle(Solve *solve, PetscInt period, PetscInt iteration)
@@ -212,6 +214,11 @@ PetscErrorCode convergence_test(SNES snes, PetscInt iteration, PetscReal xnorm, 
   }
   if (!*reason) PetscCall(watch(solve, iteration, fnorm, reason));
   if (!*reason && iteration == 0 && solve->newton.soft != 1) PetscCall(soften(solve));
+  if (!*reason && iteration > 1) {
+    PetscReal *norms;
+    PetscCall(SNESGetConvergenceHistory(snes, &norms, NULL, NULL));
+    if (fnorm > GONE * PetscMax(norms[0], norms[1])) *reason = SNES_DIVERGED_DTOL;
+  }
   if (!*reason && solve->newton.gives_up) {
     PetscBool lost;
     PetscCall(is_lost(snes, &lost));

@@ -2,17 +2,17 @@
  * slip) to the next. Where it comes back to an earlier guess while the residual does not fall, it will do so again
  * and again.
  *
- * The states of all non-mortar nodes are kept for the last 2 LONGEST iterations. Slip one way and slip back are two
+ * The states of all non-mortar nodes are kept for the last iterations. Slip one way and slip back are two
  * states: slip that turns round in every iteration is the commonest cycle of all under a large augmentation. A cycle
- * of period p is found when the last p sets of states repeat the p before them, no shorter period does, and the
- * residual has not fallen below FALLING of what it was p iterations ago. Each rank keeps the nodes that are at home there, and all
+ * of period p is found when the last p sets of states, CONVINCING of them where it is longer than that, repeat those p iterations before, no
+ * shorter period does, and the residual has not fallen below FALLING of what it was p iterations ago. Each rank keeps the nodes that are at home there, and all
  * agree. */
 #include "solve/solve.h"
 #include <cjson/cJSON.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { SHORTEST = 2, LONGEST = 4, WINDOW = 2 * LONGEST, NODES_IN_SENTENCE = 4 };
+enum { SHORTEST = 2, LONGEST = 16, CONVINCING = 4, WINDOW = LONGEST + CONVINCING, NODES_IN_SENTENCE = 4 };
 /* A quadratic or even a linear convergence at a useful pace falls faster; a cycle on linear pieces does not fall at
  * all. */
 static const PetscReal FALLING = 0.5;
@@ -84,8 +84,9 @@ static PetscErrorCode find_repeats(const Cycling *cycling, PetscBool repeats[LON
   PetscFunctionBegin;
   repeats[0] = PETSC_TRUE;
   for (PetscInt period = 1; period <= LONGEST; period++) {
-    repeats[period] = (PetscBool)(cycling->n >= 2 * period);
-    for (PetscInt back = 0; back < period && repeats[period]; back++)
+    const PetscInt sets = PetscMin(period, CONVINCING);
+    repeats[period]     = (PetscBool)(cycling->n >= period + sets);
+    for (PetscInt back = 0; back < sets && repeats[period]; back++)
       repeats[period] = (PetscBool)!memcmp(row(cycling, back), row(cycling, back + period), (size_t)cycling->n_nodes * sizeof(int32_t));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, repeats, LONGEST + 1, MPIU_BOOL, MPI_LAND, PETSC_COMM_WORLD));

@@ -119,6 +119,8 @@ static const char *in_words(SNESConvergedReason reason, const char *linear)
     return "too many iterations";
   case SNES_DIVERGED_LINEAR_SOLVE:
     return linear;
+  case SNES_DIVERGED_DTOL:
+    return "bodies are thrown out of the model";
   case SNES_DIVERGED_FUNCTION_NANORINF:
     return "the residual is no number any more";
   default:
@@ -254,7 +256,7 @@ static PetscErrorCode attempt(Solve *solve, int k, const Past *past, Vec x, Pets
                                                                                                           ATTEMPTS[k].line_search));
   PetscCall(SNESGetTolerances(solve->snes, &atol, &rtol, &stol, &max_it, &max_f));
   opens            = (PetscBool)(k == FULL && only_opens(solve));
-  newton->gives_up = (PetscBool)(k == FULL && !opens);
+  newton->gives_up = (PetscBool)((k == FULL && !opens) || (k == CLOSING && newton->laid)); /* then nothing has to be closed */
   newton->soft     = k == SOFTER ? SOFT : 1;
   if (opens) PetscCall(count_nodes(contact, &n_nodes));
   if (!newton->fixed_max_it && (k == CLOSING || opens))
@@ -327,7 +329,7 @@ static PetscErrorCode evaluate_there(Solve *solve, Vec x)
 PetscErrorCode newton_solve(Solve *solve, Past *past, Vec x, PetscBool *converged)
 {
   Newton         *newton       = &solve->newton;
-  PetscBool       extrapolates, closing_first, laid, loose, at_start = PETSC_TRUE;
+  PetscBool       extrapolates, closing_first, loose, at_start = PETSC_TRUE;
   int             lost = -1; /* the first attempt that let a body go */
 
   PetscFunctionBegin;
@@ -342,11 +344,10 @@ PetscErrorCode newton_solve(Solve *solve, Past *past, Vec x, PetscBool *converge
     if (*converged) PetscCall(evaluate_there(solve, x));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(settle_loose(solve, past, &laid));
   extrapolates = first_iterate_extrapolates(solve, past);
   PetscCall(first_iterate(solve, past, extrapolates, x));
   PetscCall(closing_needed(solve, x, &closing_first));
-  closing_first = (PetscBool)((closing_first && !newton->begins_soft) || laid); /* softer than it is, contact may well hold the body */
+  closing_first = (PetscBool)((closing_first && !newton->begins_soft) || newton->laid); /* softer than it is, contact may well hold the body */
   for (int i = 0; i < N_ATTEMPTS && !*converged; i++) {
     const int k = order(closing_first ? CLOSING : newton->begins_soft ? SOFTER : FULL, i);
     if (k == SOFTER && !newton->begins_soft && (extrapolates || !(newton->threw || solve->contact->refusal[0]))) continue;

@@ -30,6 +30,8 @@ static const PetscReal ALIKE = 0.9, FARTHEST = 0.2, EAGER = 32, HESITANT = 0.125
  * of a first move: what they leave is a turn, which takes what touches along the surface, and friction keeps it there. */
 enum { RESTS = 2 };
 static const PetscReal REST = 2.5e-2, NEARLY = 0.1, SWEPT = 1e-7;
+/* In radians: bodies that turn less than this are as the linear material takes them, to a lever's change by this part of it. */
+static const PetscReal TURNED = 5e-3;
 /* How deep touching nodes end, over the edge: about what the loads press them in by, within bounds. */
 static const PetscReal DEEPEST = 1e-2, SHALLOWEST = 1e-8;
 
@@ -50,8 +52,9 @@ static void share(const Settle *s, const PetscReal sizes[], PetscInt part, Petsc
   }
 }
 
-/* x -> R x + d, which turns about a place */
-static void rigid_motion(const PetscReal motion[MODES], const PetscReal middle[3], PetscReal rigid[LAID_NUMBERS])
+/* x -> R x + d, which turns about a place: R, row by row, and d */
+enum { TURN = 12 };
+static void rigid_motion(const PetscReal motion[MODES], const PetscReal middle[3], PetscReal rigid[TURN])
 {
   const PetscReal *w = motion + 3, angle = PetscSqrtReal(settle_dot(3, w, w));
   const PetscReal  first = angle > 0 ? PetscSinReal(angle) / angle : 1, second = angle > 0 ? 2 * PetscSqr(PetscSinReal(angle / 2) / angle) : 0.5;
@@ -108,12 +111,13 @@ static PetscErrorCode move_vertices(const Solve *solve, Settle *s)
   PetscReal         *motions, *rigid;
   Vec                vector;
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(MODES * physics->parts.n, &motions, LAID_NUMBERS * physics->parts.n, &rigid));
+  PetscCall(PetscMalloc2(MODES * physics->parts.n, &motions, TURN * physics->parts.n, &rigid));
   for (PetscInt p = 0; p < physics->parts.n; p++) {
     if (s->m.place[p] < 0) continue;
     share(s, s->move, p, motions + MODES * p);
-    rigid_motion(motions + MODES * p, s->m.middle + 3 * p, rigid + LAID_NUMBERS * p);
-    laid_compose(s->laid + LAID_NUMBERS * p, rigid + LAID_NUMBERS * p, s->laid + LAID_NUMBERS * p);
+    rigid_motion(motions + MODES * p, s->m.middle + 3 * p, rigid + TURN * p);
+    for (int i = 0; i < 3; i++)
+      s->turned[3 * p + i] += motions[MODES * p + 3 + i];
   }
   PetscCall(DMGetCoordinatesLocal(mesh->dm, &vector));
   PetscCall(VecGetArrayRead(vector, &coordinates));
@@ -127,7 +131,7 @@ static PetscErrorCode move_vertices(const Solve *solve, Settle *s)
     for (int i = 0; i < 3; i++)
       now[i] = x[i] + PetscRealPart(u[at + i]);
     for (int i = 0; i < 3; i++) {
-      const PetscReal *row = rigid + LAID_NUMBERS * part;
+      const PetscReal *row = rigid + TURN * part;
       u[at + i]            = r < 0 ? row[9 + i] + settle_dot(3, row + 3 * i, now) - x[i] :
                                      u[at + i] + physics->rigids[r].length * motions[MODES * part + 3 + i];
     }
@@ -177,9 +181,7 @@ static PetscErrorCode begin(Solve *solve, Settle *s, PetscBool *possible)
   PetscCall(motions_sum(&s->m));
   motions_add_rings(physics, &s->m);
   PetscCall(motions_find_free(&s->m, &s->n)); /* the same on every rank */
-  PetscCall(PetscCalloc4(s->n, &s->load, s->n, &s->move, s->n, &s->before, LAID_NUMBERS * physics->parts.n, &s->laid));
-  for (PetscInt k = 0; k < LAID_NUMBERS * physics->parts.n; k++)
-    s->laid[k] = k % LAID_NUMBERS < 9 && k % LAID_NUMBERS % 4 == 0;
+  PetscCall(PetscCalloc4(s->n, &s->load, s->n, &s->move, s->n, &s->before, 3 * physics->parts.n, &s->turned));
   *possible = (PetscBool)(s->n > 0 && edge < PETSC_MAX_REAL);
   if (!*possible) PetscFunctionReturn(PETSC_SUCCESS);
   s->edge = edge, s->eager = 1, s->limit = EAGER, s->most = REACH * edge;
@@ -194,7 +196,7 @@ static PetscErrorCode end(Settle *s)
 {
   PetscFunctionBegin;
   PetscCall(settle_forget_gaps(s));
-  PetscCall(PetscFree4(s->load, s->move, s->before, s->laid));
+  PetscCall(PetscFree4(s->load, s->move, s->before, s->turned));
   PetscCall(motions_destroy(&s->m));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -326,7 +328,8 @@ static PetscErrorCode lay(Solve *solve, PetscReal t0, Vec last, PetscBool *laid)
     PetscCall(VecNorm(last, NORM_INFINITY, &moved));
     PetscCall(VecCopy(x, last));
     for (PetscInt p = 0; p < solve->physics->parts.n; p++) {
-      if (s.m.place[p] >= 0) PetscCall(laid_move(solve->physics, p, s.laid + LAID_NUMBERS * p));
+      const PetscReal *turned = s.turned + 3 * p;
+      if (settle_dot(3, turned, turned) > PetscSqr(TURNED)) laid_turn(solve->physics, p);
     }
     PetscCall(tell(solve, t0, moved));
   }
@@ -335,18 +338,19 @@ static PetscErrorCode lay(Solve *solve, PetscReal t0, Vec last, PetscBool *laid)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Before a step is taken from `past`: lays down what is loose there. */
-PetscErrorCode settle_loose(Solve *solve, Past *past, PetscBool *laid)
+/* Before a step is taken from `past`: lays down what is loose there, by the loads of now. */
+PetscErrorCode settle_loose(Solve *solve, Past *past)
 {
   Physics  *physics = solve->physics;
   PetscBool loose;
   PetscFunctionBegin;
-  *laid = PETSC_FALSE;
+  solve->newton.laid = PETSC_FALSE;
   if (!allowed(solve)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(loads_values(physics));
   PetscCall(supports_values(physics, past->t_last));
   PetscCall(closing_needed(solve, past->last, &loose));
-  if (loose) PetscCall(lay(solve, past->t_last, past->last, laid));
+  if (loose) PetscCall(lay(solve, past->t_last, past->last, &solve->newton.laid));
   PetscCall(supports_values(physics, physics->t));
-  if (*laid) past->have_before = PETSC_FALSE;
+  if (solve->newton.laid) past->have_before = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -8,7 +8,7 @@ typedef struct {
   PetscBool  rubs;                 /* friction is counted: not in models with rigid bodies, whose places at rest would depend on the form of the system */
   PetscInt   n;                    /* motions that supports leave free, the first rows of m.gram */
   PetscReal *load, *move, *before; /* n: the move that nothing stops; the next one, the last one */
-  PetscReal *laid;                 /* LAID_NUMBERS per part: how far it has come */
+  PetscReal *turned;               /* 3 per part: by how much in all, about three axes */
   PetscReal  edge, most, eager, depth; /* the shortest of the interfaces' longest edges; a move's length, at most; `load` over that; of
                                           touching nodes */
   PetscReal  limit;                /* of `eager`, for now */

@@ -175,8 +175,8 @@ void settle_find_move(Settle *s, PetscReal accuracy)
   for (int sweep = 0; sweep < SWEEPS && change > accuracy; sweep++) {
     change = 0;
     for (PetscInt g = 0; g < s->n_gaps; g++) {
-      change = PetscMax(change, press(s, g));
-      change = PetscMax(change, rub(s, g));
+      const PetscReal pressed = press(s, g), rubbed = rub(s, g); /* PetscMax would do it twice */
+      change                  = PetscMax(change, PetscMax(pressed, rubbed));
     }
   }
 }

@@ -43,6 +43,7 @@ typedef struct {
   PetscReal     soft;              /* what this attempt begins with, over the scene's augmentation */
   PetscInt      n_changes;         /* of the augmentation in this attempt */
   PetscBool     gives_up;          /* this attempt, when it has thrown the bodies about and does not come back */
+  PetscBool     laid;              /* the step began with laying bodies down (settle.c) */
   PetscBool     begins_soft;       /* the last step converged in the attempt with the softer augmentation */
   PetscBool     threw;             /* an attempt at this step has thrown the bodies about */
   PetscBool     changed, stale;    /* it is not the scene's; the residual belongs to another one */
@@ -219,7 +220,7 @@ PetscBool      closing_settled(const Solve *solve);
 PetscErrorCode closing_shift(Solve *solve, Mat matrix);
 
 /* settle.c: where friction must hold what touches nothing at the start of a step, moves that start, `past`, to where it touches */
-PetscErrorCode settle_loose(Solve *solve, Past *past, PetscBool *laid);
+PetscErrorCode settle_loose(Solve *solve, Past *past);
 
 /* held.c: which bodies contact alone must hold, as a sentence; which ones nothing holds */
 PetscErrorCode held_create(Solve *solve); /* and again, with closing_find(), where other supports hold from now on */

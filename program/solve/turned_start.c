@@ -26,10 +26,10 @@ static PetscErrorCode turn_all(const Physics *physics, PetscReal t0, const Petsc
       const PetscInt dof = cells->dofs[k];
       PetscReal      x[3];
       for (int i = 0; i < 3; i++)
-        x[i] = laid_first(cells, 3 * k + i) + PetscRealPart(u[dof + i]);
+        x[i] = cells->X[3 * k + i] + PetscRealPart(u[dof + i]);
       supports_turn(&physics->supports[support_of[part]], t0, physics->t, x);
       for (int i = 0; i < 3; i++) {
-        v[dof + i] = x[i] - laid_first(cells, 3 * k + i);
+        v[dof + i] = x[i] - cells->X[3 * k + i];
         if (!entry_held(physics, dof + i)) continue;
         left[part] = PetscMax(left[part], PetscAbsScalar(p[dof + i] - v[dof + i]));
         all[part]  = PetscMax(all[part], PetscAbsScalar(p[dof + i] - u[dof + i]));

@@ -8,7 +8,7 @@ import math
 
 import host
 from cell import series
-from pin_joint import END, pin_joint
+from pin_joint import END, pin_chain, pin_joint
 
 CLEARANCES = ("1e-4", "1e-3", "3e-3", "1e-2", "2e-2", "4e-2")
 CELLS = (12, 14, 16, 20, 24, 28)  # round the pin
@@ -17,6 +17,9 @@ HELD = {"x, y, z": "xyz", "y, z": "yz", "x, y": "xy", "z": "z", "y": "y", "nothi
 LOAD = 20.0
 # Tractions at a lug's end, 6 from the pin's axis. Those beyond a slope of 0.03 or so turn it. The hole presses on the pin by facets.
 OBLIQUE = {"along x": (20, 0, 0), "1 against y": (20, -1, 0.5), "2 along y": (20, 2, 1), "3 along z": (20, 0, 3)}
+# A chain of two joints; its pulled end has this area. A link that is pulled sideways hangs on an edge.
+CHAIN = {"along x": (20, 0, 0), "1 along y": (20, 1, 0), "2 along y": (20, 2, 1), "2 against y": (20, -2, 1), "1 along z": (20, 0, 1), "4 along y": (20, 4, 0)}
+CHAIN_END = 8.8
 # A step ends at 1e-11 of the forces, in each of a few bodies.
 BALANCE = 1e-9
 QUIET = {"output": {"vtu": "none", "csv": "last"}}
@@ -87,7 +90,7 @@ def judged(context, scene, force):
         result.below(f"reaction along {axis}", abs(carried - force[i]) / size, BALANCE, "the load")
     result.below("iterations", sum(step["newton_iterations"] for step in found.steps), ITERATIONS, "of all steps")
     result.below("cut-backs", found.summary["cutbacks"], CUTBACKS, "of all steps")
-    result.true("what is loose is told", "lug" in found.summary["held_by_contact"], "the lug, which only the pin stops")
+    result.true("what is loose is told", {"lug", "link"} & set(found.summary["held_by_contact"]), "what only a pin stops")
     result.figures["laid down by"] = found.summary.get("laid_down", {}).get("moved", 0.0)
     return result
 
@@ -98,6 +101,10 @@ def pulled(around=16, **more):
 
 def pulled_obliquely(traction):
     return lambda context: judged(context, pin_joint(traction, 4) | QUIET, [END * t for t in traction])
+
+
+def pulled_chain(traction):
+    return lambda context: judged(context, pin_chain(traction, 4) | QUIET, [CHAIN_END * t for t in traction])
 
 
 def pulled_by_bush(clearance):
@@ -111,4 +118,6 @@ def cells():
     yield from series("pin joint, what holds the pin's end", tuple(HELD), loose)
     oblique_pull = lambda text: pulled_obliquely(OBLIQUE[text])
     yield from series("pin joint without a guide, pull", tuple(OBLIQUE), oblique_pull, quick=("2 along y",))
+    chain_pull = lambda text: pulled_chain(CHAIN[text])
+    yield from series("chain of two pin joints, pull", tuple(CHAIN), chain_pull)
     yield from series("pin joint with a bush, clearance", CLEARANCES[1:5], lambda text: pulled_by_bush(float(text)))
