@@ -119,25 +119,32 @@ PetscErrorCode unseen_accept(Contact *contact)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* All that is closed at the end is one node: the contact is smaller than the facets around it, and its force is that of a pyramid. A disc
- * between two others pressed 32 per cent too hard so, at no overlap that a node would show. */
-static PetscErrorCode tell_lonely(const Interface *interface)
+/* All that is closed at the end is one node, or, where points decide, less than a node has: the contact is smaller than the facets around it, and its
+ * force is that of a pyramid. A disc between two others pressed 32 per cent too hard so, at points half as hard as it should, at no overlap that a
+ * node would show. */
+static PetscErrorCode tell_lonely(const Interface *interface, const Mesh *mesh)
 {
-  PetscInt  counts[2] = {0, interface->n1};
-  PetscReal X[3]      = {0, 0, 0}, place[3];
+  const ContactStates *states   = &interface->states;
+  const PetscBool      points   = decision_is_points(interface);
+  PetscReal            sums[3]  = {0, 0, interface->n1}, most = 0, where[4] = {0}; /* closed: nodes, area; the node that is most: place, area */
   PetscFunctionBegin;
   for (PetscInt a = 0; a < interface->n1; a++) {
-    if (interface->states.state[a] == STICKSLIP_STATE_GAP) continue;
-    counts[0]++;
-    contact_vector(interface->dimension, interface->X, a, X);
+    const PetscReal closed = states->closed[a] * states->coverage[a];
+    if (states->state[a] == STICKSLIP_STATE_GAP) continue;
+    sums[0]++;
+    sums[1] += closed;
+    if (closed <= most) continue;
+    contact_vector(interface->dimension, interface->X, a, where);
+    where[3] = states->area[a];
+    most     = closed;
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
-  if (counts[0] != 1 || counts[1] <= LONELY_OF) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCallMPI(MPI_Allreduce(X, place, 3, MPIU_REAL, MPI_SUM, PETSC_COMM_WORLD)); /* the others have none */
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
+  PetscCall(contact_largest(mesh, &most, sizeof(where), where));
+  if (sums[2] <= LONELY_OF || !(points ? sums[1] > 0 && sums[1] < where[3] : sums[0] == 1)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
-                         "stickslip: warning: all that %s carries at the end is at one node, at (%g, %g, %g) in the undeformed body: the contact is smaller "
+                         "stickslip: warning: all that %s carries at the end is %s one node, at (%g, %g, %g) in the undeformed body: the contact is smaller "
                          "than its facets, and its force may be off by tens of per cent. Take facets so fine that several lie in the contact.\n",
-                         interface->name, (double)place[0], (double)place[1], (double)place[2]));
+                         interface->name, points ? "less than the area of" : "at", (double)where[0], (double)where[1], (double)where[2]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -149,7 +156,7 @@ PetscErrorCode unseen_end(const Contact *contact)
     const Interface *interface = &contact->interfaces[i];
     if (interface->options.friction == STICKSLIP_FRICTION_TIED) continue;
     if (interface->largest_traction > 0) {
-      PetscCall(tell_lonely(interface));
+      PetscCall(tell_lonely(interface, contact->mesh));
       continue;
     }
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,

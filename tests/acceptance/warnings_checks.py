@@ -87,6 +87,7 @@ def warnings(verdicts, driver):
     held(verdicts, driver)
     linear(verdicts, driver)
     redundant(verdicts, driver)
+    lonely(verdicts, driver)
 
 
 def held(verdicts, driver):
@@ -147,3 +148,30 @@ def redundant(verdicts, driver):
         )
         told = "apart along z at (0., " in run.text
         verdicts.true(f"layers moved {'apart' if refused else 'alike'} at the wall: {'told' if told else 'silent'}", told == refused, "by the node's place")
+
+
+# A disc of few cells that a plate presses on a floor: all of it on one node, or less than a facet.
+DISC = {
+    "schema": 1,
+    "model": "plane_strain",
+    "bodies": ["disc", "floor"],
+    "disc": {"type": "box", "ball": [0, 0.5], "lower": [-0.5, 0], "upper": [0.5, 1], "young": 1000, "poisson": 0.3, "small_strain": True},
+    "floor": {"type": "box", "lower": [-1, -1], "upper": [1, 0], "young": 1000, "poisson": 0.3},
+    "supports": ["ground", "hub"],
+    "ground": {"surface": "floor.ymin", "components": ["x", "y"]},
+    "hub": {"body": "disc", "within": [-0.1, 0.4, 0.1, 0.6], "components": ["x", "y"], "value": [0, -0.006]},
+    "interfaces": ["contact"],
+    "contact": {"nonmortar": "disc.ymin", "mortar": "floor.ymax"},
+    "steps": {"count": 2},
+    "output": {"vtu": "none", "csv": "none"},
+}
+SMALLER = "the contact is smaller than its facets"
+
+
+def lonely(verdicts, driver):
+    for decision in ("nodes", "points"):
+        for cells, told in ((8, True), (64, False)):
+            scene = DISC | {name: DISC[name] | {"cells": [cells, cells]} for name in ("disc", "floor")}
+            scene["contact"] = DISC["contact"] | {"decision": decision}
+            run = driver.run(write(scene, driver.output / f"disc_{decision}_{cells}.yaml"), label=f"disc_{decision}_{cells}")
+            verdicts.true(f"disc, {decision}, {cells} cells: {'told' if told else 'silent'}", (SMALLER in run.text) == told, "facets as large as the contact")
