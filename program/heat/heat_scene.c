@@ -176,7 +176,7 @@ PetscErrorCode heat_read(Scene *scene, Heat *heat)
   static const char *const couplings[] = {"one_way", "two_way", NULL};
   PetscInt                 coupling    = 0;
   PetscFunctionBegin;
-  if (!scene_has(scene, "heat", "initial")) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!scene_has_map("heat")) PetscFunctionReturn(PETSC_SUCCESS);
   heat->on = PETSC_TRUE;
   scene_real_required(scene, "heat", "initial", &heat->initial);
   scene_choice(scene, "heat", "coupling", couplings, &coupling);

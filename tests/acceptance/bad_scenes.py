@@ -57,6 +57,7 @@ BAD_SCENES = [
     BadScene("out_of_the_tables_range", "steps: {end: 2", "steps: {lever: 0.5, end: 2", "steps.lever", says="0.5 is not allowed; it must be at least 1"),
     BadScene("name_of_a_map", "supports: [", "supports: [heat, ", "supports", says="the name 'heat' is reserved"),
     BadScene("value_for_a_map", "schema: 1", "schema: 1\nheat: 20", "heat", says="a map is expected"),
+    BadScene("heat_without_initial", "schema: 1", "schema: 1\nheat: {coupling: two_way}", "heat.initial", says="this key is missing"),
     BadScene("unknown_map", "schema: 1", "schema: 1\nextra: {a: 1}", "extra.a"),
     BadScene("missing_value", "cells: [20, 1, 10], ", "", "block.cells"),
     BadScene("not_a_number", "friction: 0.5", "friction: plenty", "base.friction"),

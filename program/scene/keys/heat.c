@@ -4,7 +4,7 @@
 static const char PAGE[] = "c_examples/scenes/heat.md";
 
 static const Key HEAT[] = {
-  {"initial", KEY_NUMBER, "K", ANY, REQUIRED, "the temperature of all bodies at the start; without it no other key of heat is known"},
+  {"initial", KEY_NUMBER, "K", ANY, REQUIRED, "the temperature of all bodies at the start"},
   {"coupling", KEY_WORD, "one_way two_way", ANY, "one_way",
    "`one_way`: the mechanics decides what heat meets. `two_way`: bodies expand, too, and each step is repeated in turns until the temperatures "
    "settle"},
