@@ -23,6 +23,55 @@ PetscErrorCode fluid_share_flags(Physics *physics, Vec flags)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Which of these faces, of all ranks, meet the sides of the interfaces? sides: its first components say of the vertices that they are theirs. */
+static PetscErrorCode meet(const Physics *physics, Vec sides, PetscInt n, const PetscInt faces[], PetscInt *met)
+{
+  const PetscScalar *flags;
+  PetscFunctionBegin;
+  *met = 0;
+  PetscCall(VecGetArrayRead(sides, &flags));
+  for (PetscInt j = 0; j < n; j++) {
+    Face face;
+    PetscCall(face_look_at(physics, faces[j], &face));
+    for (PetscInt a = 0; a < face.n; a++)
+      *met += PetscRealPart(flags[face.dofs[a]]) > 0;
+  }
+  PetscCall(VecRestoreArrayRead(sides, &flags));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, met, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A source that does not touch the sides wets nothing, and an outlet that does not is never reached: told, for it is a mistake. */
+static PetscErrorCode tell_apart(Physics *physics, const Load *load)
+{
+  const Fluid *fluid = load->fluid;
+  PetscInt     source, outlet;
+  PetscScalar *flags;
+  Vec          sides;
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(physics->u_local, &sides));
+  PetscCall(VecZeroEntries(sides));
+  PetscCall(VecGetArray(sides, &flags));
+  for (PetscInt k = 0; k < fluid->n_faces; k++) {
+    Face face;
+    PetscCall(face_look_at(physics, fluid->faces[k], &face));
+    for (PetscInt a = 0; a < face.n; a++)
+      flags[face.dofs[a]] = 1;
+  }
+  PetscCall(VecRestoreArray(sides, &flags));
+  PetscCall(fluid_share_flags(physics, sides));
+  PetscCall(meet(physics, sides, load->n_faces, load->faces, &source));
+  PetscCall(meet(physics, sides, fluid->n_out, fluid->out, &outlet));
+  PetscCall(VecDestroy(&sides));
+  if (!source)
+    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
+                           "stickslip: warning: the `surface` of '%s' shares no vertex with a side of its interfaces (`into`): the fluid gets between them nowhere.\n", load->name));
+  if (fluid->n_outlet_faces && !outlet)
+    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
+                           "stickslip: warning: the `outlet` of '%s' shares no vertex with a side of its interfaces (`into`): no leak would be told.\n", load->name));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode fluid_create(Physics *physics, Load *load)
 {
   Fluid       *fluid = load->fluid;
@@ -50,6 +99,7 @@ PetscErrorCode fluid_create(Physics *physics, Load *load)
   PetscCall(fluid_share_flags(physics, fluid->start));
   PetscCall(VecDuplicate(fluid->start, &fluid->reached));
   PetscCall(VecCopy(fluid->start, fluid->reached));
+  PetscCall(tell_apart(physics, load));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -12,6 +12,8 @@ static PetscErrorCode find(Scene *scene, const Physics *physics, const char *map
   PetscCall(PetscRealloc((size_t)(*n + more) * sizeof(**surfaces), surfaces));
   for (PetscInt k = 0; k < more; k++) {
     const Surface *surface = mesh_surface(scene, physics->mesh, map, key, names[k]);
+    if (surface->analytic && !strcmp(key, "outlet"))
+      scene_fail(scene, map, key, "'%s' is of an analytic shape, which has no faces that a fluid could come to.", names[k]);
     if (!surface->analytic) (*surfaces)[(*n)++] = surface; /* it does not move by what presses it */
   }
   strings_destroy(more, &names);

@@ -194,6 +194,17 @@ def refused(verdicts, driver):
         scene["oil"] = {k: v for k, v in (scene["oil"] | load).items() if v is not None}
         run = driver.run(write(scene, driver.output / "refused.yaml"), label="refused", expect=1)
         verdicts.true(f"a fluid {what}: refused", says in run.text and "PETSC ERROR" not in run.text, f"says: {says}")
+    nowhere, untold = "the fluid gets between them nowhere", "no leak would be told"
+    for what, load, says in (
+        ("from aside", {"surface": "die.ymax"}, [nowhere]),
+        ("with an outlet aside", {"outlet": "die.ymax"}, [untold]),
+        ("as it is meant", {}, []),
+    ):
+        scene = wedge()
+        scene["oil"] = scene["oil"] | load
+        run = driver.run(write(scene, driver.output / "aside.yaml"), label="aside")
+        told = [words for words in (nowhere, untold) if words in run.text]
+        verdicts.true(f"a fluid {what}: {len(told)} told", told == says, ", ".join(says) or "nothing")
 
 
 def fluid(verdicts, driver):
