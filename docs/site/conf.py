@@ -17,7 +17,7 @@ extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "heade
 root_doc = "docs/site/index"
 include_patterns = [
     "README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "SUPPORT.md", "docs/*.md", "docs/formulation/*.md", "docs/site/*.md", "docs/site/*.rst",
-    "program/README.md", "c_examples/scenes/*.md", "hosts/README.md", "python/README.md", "packaging/README.md", "packaging/xsdk.md",
+    "program/README.md", "c_examples/scenes/*.md", "hosts/README.md", "hosts/calculix/README.md", "python/README.md", "packaging/README.md", "packaging/xsdk.md",
     "benches/README.md", "studies/README.md", "tests/README.md", "tests/acceptance/README.md", "fuzz/README.md",
 ]
 myst_heading_anchors = 4
