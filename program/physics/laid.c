@@ -1,13 +1,15 @@
 /* Bodies that a step began with laying down (solve/settle.c). They are moved as a whole, and turned. The linear material tells no turn from a
  * strain, and a load keeps its first lever there, so that nothing brings a body that hangs on an edge to rest. From there on such a body has
- * the law of St. Venant and Kirchhoff, which is the linear one where strains are small, and knows turns; unless small strain is meant. */
+ * the law of St. Venant and Kirchhoff, which is the linear one where strains are small, and knows turns. */
 #include "physics/physics.h"
 
-void laid_turn(Physics *physics, PetscInt part)
+PetscBool laid_turn(Physics *physics, PetscInt part)
 {
   const PetscInt body     = mesh_body_of(physics->mesh, physics->parts.part[part].first);
   Material      *material = &physics->materials[body];
-  if (material->law == &MATERIAL_LINEAR && !material->small_strain && !physics->mesh->bodies[body].rigid) material->law = &MATERIAL_ST_VENANT_KIRCHHOFF;
+  if (material->law != &MATERIAL_LINEAR || physics->mesh->bodies[body].rigid) return PETSC_FALSE;
+  material->law = &MATERIAL_ST_VENANT_KIRCHHOFF;
+  return PETSC_TRUE;
 }
 
 PetscErrorCode laid_archive(Physics *physics, Archive *archive)

@@ -333,8 +333,8 @@ typedef struct {
   PetscBool damping_only;
 } BulkStep;
 
-/* laid.c: the body of a part that is laid down, and turned, knows turns from now on */
-void           laid_turn(Physics *physics, PetscInt part);
+/* laid.c: the body of a part that is laid down, and turned, knows turns from now on; was it linear? */
+PetscBool      laid_turn(Physics *physics, PetscInt part);
 PetscErrorCode laid_archive(Physics *physics, Archive *archive);
 
 /* bulk.c */

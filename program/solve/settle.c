@@ -263,7 +263,7 @@ static PetscBool allowed(const Solve *solve)
 }
 
 /* In words and for the summary: which bodies, how far. */
-static PetscErrorCode tell(Solve *solve, PetscReal t0, PetscReal moved)
+static PetscErrorCode tell(Solve *solve, PetscReal t0, PetscReal moved, const char *turned)
 {
   const Parts *parts = &solve->physics->parts;
   PetscInt     told  = -1;
@@ -286,8 +286,9 @@ static PetscErrorCode tell(Solve *solve, PetscReal t0, PetscReal moved)
   if (!solve->quiet)
     PetscCall(PetscPrintf(PETSC_COMM_WORLD,
                           "note: at t = %.6g %s touch nothing that holds them, and only friction can hold some of their motions. They are moved, "
-                          "without strain, along their loads until they touch, by %.3g at most; slip counts from there\n",
-                          (double)t0, names, (double)moved));
+                          "without strain, along their loads until they touch, by %.3g at most; slip counts from there%s%s\n",
+                          (double)t0, names, (double)moved, turned[0] ? ". What turns, and was linear, has the law of St. Venant and Kirchhoff from there on: " : "",
+                          turned));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -324,14 +325,17 @@ static PetscErrorCode lay(Solve *solve, PetscReal t0, Vec last, PetscBool *laid)
   }
   if (*laid) {
     PetscReal moved;
+    char      names[512] = "";
     PetscCall(VecAXPY(last, -1, x));
     PetscCall(VecNorm(last, NORM_INFINITY, &moved));
     PetscCall(VecCopy(x, last));
     for (PetscInt p = 0; p < solve->physics->parts.n; p++) {
       const PetscReal *turned = s.turned + 3 * p;
-      if (settle_dot(3, turned, turned) > PetscSqr(TURNED)) laid_turn(solve->physics, p);
+      if (settle_dot(3, turned, turned) <= PetscSqr(TURNED) || !laid_turn(solve->physics, p)) continue;
+      PetscCall(PetscStrlcat(names, names[0] ? ", " : "", sizeof(names)));
+      PetscCall(PetscStrlcat(names, solve->mesh->bodies[mesh_body_of(solve->mesh, solve->physics->parts.part[p].first)].name, sizeof(names)));
     }
-    PetscCall(tell(solve, t0, moved));
+    PetscCall(tell(solve, t0, moved, names));
   }
   PetscCall(end(&s));
   PetscCall(VecDestroy(&x));
