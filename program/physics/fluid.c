@@ -23,21 +23,38 @@ PetscErrorCode fluid_share_flags(Physics *physics, Vec flags)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Which of these faces, of all ranks, meet the sides of the interfaces? sides: its first components say of the vertices that they are theirs. */
-static PetscErrorCode meet(const Physics *physics, Vec sides, PetscInt n, const PetscInt faces[], PetscInt *met)
+/* All nodes of these faces have a flag. */
+static PetscErrorCode mark(Physics *physics, PetscInt n, const PetscInt faces[], int flag, Vec flags)
 {
-  const PetscScalar *flags;
+  PetscScalar *at;
   PetscFunctionBegin;
-  *met = 0;
-  PetscCall(VecGetArrayRead(sides, &flags));
+  PetscCall(VecGetArray(flags, &at));
   for (PetscInt j = 0; j < n; j++) {
     Face face;
     PetscCall(face_look_at(physics, faces[j], &face));
     for (PetscInt a = 0; a < face.n; a++)
-      *met += PetscRealPart(flags[face.dofs[a]]) > 0;
+      at[face.dofs[a] + flag] = 1;
   }
-  PetscCall(VecRestoreArrayRead(sides, &flags));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, met, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
+  PetscCall(VecRestoreArray(flags, &at));
+  PetscCall(fluid_share_flags(physics, flags));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Corners of these faces that have a flag, each face's by itself, of all ranks. */
+static PetscErrorCode count_marked(const Physics *physics, PetscInt n, const PetscInt faces[], int flag, Vec flags, PetscInt *marked)
+{
+  const PetscScalar *at;
+  PetscFunctionBegin;
+  *marked = 0;
+  PetscCall(VecGetArrayRead(flags, &at));
+  for (PetscInt j = 0; j < n; j++) {
+    Face face;
+    PetscCall(face_look_at(physics, faces[j], &face));
+    for (PetscInt a = 0; a < cell_corners(face.kind); a++)
+      *marked += PetscRealPart(at[face.dofs[a] + flag]) > 0;
+  }
+  PetscCall(VecRestoreArrayRead(flags, &at));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, marked, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -46,22 +63,13 @@ static PetscErrorCode tell_apart(Physics *physics, const Load *load)
 {
   const Fluid *fluid = load->fluid;
   PetscInt     source, outlet;
-  PetscScalar *flags;
   Vec          sides;
   PetscFunctionBegin;
   PetscCall(VecDuplicate(physics->u_local, &sides));
   PetscCall(VecZeroEntries(sides));
-  PetscCall(VecGetArray(sides, &flags));
-  for (PetscInt k = 0; k < fluid->n_faces; k++) {
-    Face face;
-    PetscCall(face_look_at(physics, fluid->faces[k], &face));
-    for (PetscInt a = 0; a < face.n; a++)
-      flags[face.dofs[a]] = 1;
-  }
-  PetscCall(VecRestoreArray(sides, &flags));
-  PetscCall(fluid_share_flags(physics, sides));
-  PetscCall(meet(physics, sides, load->n_faces, load->faces, &source));
-  PetscCall(meet(physics, sides, fluid->n_out, fluid->out, &outlet));
+  PetscCall(mark(physics, fluid->n_faces, fluid->faces, FLUID_SOURCE, sides));
+  PetscCall(count_marked(physics, load->n_faces, load->faces, FLUID_SOURCE, sides, &source));
+  PetscCall(count_marked(physics, fluid->n_out, fluid->out, FLUID_SOURCE, sides, &outlet));
   PetscCall(VecDestroy(&sides));
   if (!source)
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
@@ -74,8 +82,7 @@ static PetscErrorCode tell_apart(Physics *physics, const Load *load)
 
 PetscErrorCode fluid_create(Physics *physics, Load *load)
 {
-  Fluid       *fluid = load->fluid;
-  PetscScalar *flags;
+  Fluid *fluid = load->fluid;
   PetscFunctionBegin;
   if (!fluid) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(plex_labelled(physics->mesh, "fluid", load->name, &fluid->n_faces, &fluid->faces));
@@ -88,15 +95,7 @@ PetscErrorCode fluid_create(Physics *physics, Load *load)
   }
   PetscCall(VecDuplicate(physics->u_local, &fluid->start));
   PetscCall(VecZeroEntries(fluid->start));
-  PetscCall(VecGetArray(fluid->start, &flags));
-  for (PetscInt j = 0; j < load->n_faces; j++) {
-    Face face;
-    PetscCall(face_look_at(physics, load->faces[j], &face));
-    for (PetscInt a = 0; a < face.n; a++)
-      flags[face.dofs[a] + FLUID_SOURCE] = 1;
-  }
-  PetscCall(VecRestoreArray(fluid->start, &flags));
-  PetscCall(fluid_share_flags(physics, fluid->start));
+  PetscCall(mark(physics, load->n_faces, load->faces, FLUID_SOURCE, fluid->start));
   PetscCall(VecDuplicate(fluid->start, &fluid->reached));
   PetscCall(VecCopy(fluid->start, fluid->reached));
   PetscCall(tell_apart(physics, load));
@@ -142,7 +141,8 @@ PetscErrorCode fluid_begin(Physics *physics)
 PetscErrorCode fluid_measure(const Physics *physics, const Load *load)
 {
   Fluid             *fluid    = load->fluid;
-  PetscReal          found[2] = {0, 0};
+  PetscReal          pressed = 0;
+  PetscInt           out;
   const PetscScalar *flags, *u;
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(physics->u_local, &u));
@@ -153,19 +153,14 @@ PetscErrorCode fluid_measure(const Physics *physics, const Load *load)
     PetscCall(fluid_face(physics, fluid->faces[k], u, &face, areas));
     for (PetscInt j = 0; j < 3 * face.n; j++)
       area[j % 3] += areas[j];
-    if (fluid_presses(load, k, &face, flags)) found[0] += PetscSqrtReal(PetscSqr(area[0]) + PetscSqr(area[1]) + PetscSqr(area[2]));
-  }
-  for (PetscInt k = 0; k < fluid->n_out; k++) {
-    Face face;
-    PetscCall(face_look_at(physics, fluid->out[k], &face));
-    for (PetscInt a = 0; a < cell_corners(face.kind); a++)
-      found[1] += PetscRealPart(flags[face.dofs[a] + FLUID_REACHED]);
+    if (fluid_presses(load, k, &face, flags)) pressed += PetscSqrtReal(PetscSqr(area[0]) + PetscSqr(area[1]) + PetscSqr(area[2]));
   }
   PetscCall(VecRestoreArrayRead(fluid->reached, &flags));
   PetscCall(VecRestoreArrayRead(physics->u_local, &u));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, found, 2, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
-  fluid->area     = found[0];
-  fluid->at_outlet = (PetscBool)(found[1] > 0);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &pressed, 1, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
+  PetscCall(count_marked(physics, fluid->n_out, fluid->out, FLUID_REACHED, fluid->reached, &out));
+  fluid->area      = pressed;
+  fluid->at_outlet = (PetscBool)(out > 0);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -3,13 +3,17 @@
  * the law of St. Venant and Kirchhoff, which is the linear one where strains are small, and knows turns. */
 #include "physics/physics.h"
 
-PetscBool laid_turn(Physics *physics, PetscInt part)
+static PetscBool turn(Physics *physics, PetscInt body)
 {
-  const PetscInt body     = mesh_body_of(physics->mesh, physics->parts.part[part].first);
-  Material      *material = &physics->materials[body];
+  Material *material = &physics->materials[body];
   if (material->law != &MATERIAL_LINEAR || physics->mesh->bodies[body].rigid) return PETSC_FALSE;
   material->law = &MATERIAL_ST_VENANT_KIRCHHOFF;
   return PETSC_TRUE;
+}
+
+PetscBool laid_turn(Physics *physics, PetscInt part)
+{
+  return turn(physics, mesh_body_of(physics->mesh, physics->parts.part[part].first));
 }
 
 PetscErrorCode laid_archive(Physics *physics, Archive *archive)
@@ -18,7 +22,7 @@ PetscErrorCode laid_archive(Physics *physics, Archive *archive)
   for (PetscInt b = 0; b < physics->mesh->n_bodies; b++) {
     PetscBool turns = (PetscBool)(physics->materials[b].law == &MATERIAL_ST_VENANT_KIRCHHOFF);
     PetscCall(archive_bools(archive, "body.turns", 1, &turns));
-    if (turns && physics->materials[b].law == &MATERIAL_LINEAR) physics->materials[b].law = &MATERIAL_ST_VENANT_KIRCHHOFF;
+    if (turns) (void)turn(physics, b);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

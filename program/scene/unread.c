@@ -24,11 +24,11 @@ static size_t distance(const char *a, const char *b)
   return row[n];
 }
 
-/* Is it a map of the scene itself? */
-static PetscBool is_map(const char *name)
+/* Is it a map, or a list, of the scene itself? */
+static PetscBool is_of_scene(const char *name, KeyKind kind)
 {
   const Key *row = keys_find("scene", name, NULL);
-  return (PetscBool)(row && row->kind == KEY_MAP);
+  return (PetscBool)(row && row->kind == kind);
 }
 
 static PetscBool is_declared(const Scene *scene, const char *name)
@@ -99,7 +99,7 @@ static void fail_unread(Scene *scene, const SceneKey *key)
     take_closer(word, name, &best, &closest);
     snprintf(allowed + strlen(allowed), sizeof(allowed) - strlen(allowed), "%s%s", allowed[0] ? ", " : "", name);
   }
-  if (length && keys_find("scene", map, NULL) && keys_find("scene", map, NULL)->kind == KEY_LIST)
+  if (length && is_of_scene(map, KEY_LIST))
     scene_fail_at(scene, (size_t)key->line, map, "a list of names is expected here, and a map for each at the top level.");
   item = scene_item(scene, length ? map : NULL);
   for (size_t t = 0; item && (table = keys_table(t)); t++) {
@@ -130,7 +130,7 @@ static void check_command_line(Scene *scene)
     if (!options[k][length] || length >= sizeof(map)) continue;
     snprintf(map, sizeof(map), "%.*s", (int)length, options[k]);
     snprintf(dotted, sizeof(dotted), "%s.%.120s", map, options[k] + length + 1);
-    if (scene_is_solver_key(dotted) || !(is_map(map) || is_declared(scene, map))) continue;
+    if (scene_is_solver_key(dotted) || !(is_of_scene(map, KEY_MAP) || is_declared(scene, map))) continue;
     fail_unread(scene, &(SceneKey){.dotted = dotted, .flat = options[k], .line = 0});
   }
   PetscCallAbort(PETSC_COMM_WORLD, PetscOptionsLeftRestore(NULL, &n, &options, &values));

@@ -262,7 +262,16 @@ static PetscBool allowed(const Solve *solve)
   return (PetscBool)(solve->closing.possible && !solve->physics->dynamics);
 }
 
-/* In words and for the summary: which bodies, how far. */
+/* The body's, behind those that are there. */
+static PetscErrorCode append_name(const Mesh *mesh, PetscInt body, char names[], size_t length)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscStrlcat(names, names[0] ? ", " : "", length));
+  PetscCall(PetscStrlcat(names, mesh->bodies[body].name, length));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* In words and for the summary: which bodies, how far; `turned`: those that have another law now. */
 static PetscErrorCode tell(Solve *solve, PetscReal t0, PetscReal moved, const char *turned)
 {
   const Parts *parts = &solve->physics->parts;
@@ -279,8 +288,7 @@ static PetscErrorCode tell(Solve *solve, PetscReal t0, PetscReal moved, const ch
     const PetscInt body = mesh_body_of(solve->mesh, parts->part[p].first);
     if (!solve->held.loose[p] || body == told) continue;
     told = body;
-    PetscCall(PetscStrlcat(names, names[0] ? ", " : "", sizeof(names)));
-    PetscCall(PetscStrlcat(names, solve->mesh->bodies[body].name, sizeof(names)));
+    PetscCall(append_name(solve->mesh, body, names, sizeof(names)));
     cJSON_AddItemToArray(bodies, cJSON_CreateString(solve->mesh->bodies[body].name));
   }
   if (!solve->quiet)
@@ -332,8 +340,7 @@ static PetscErrorCode lay(Solve *solve, PetscReal t0, Vec last, PetscBool *laid)
     for (PetscInt p = 0; p < solve->physics->parts.n; p++) {
       const PetscReal *turned = s.turned + 3 * p;
       if (settle_dot(3, turned, turned) <= PetscSqr(TURNED) || !laid_turn(solve->physics, p)) continue;
-      PetscCall(PetscStrlcat(names, names[0] ? ", " : "", sizeof(names)));
-      PetscCall(PetscStrlcat(names, solve->mesh->bodies[mesh_body_of(solve->mesh, solve->physics->parts.part[p].first)].name, sizeof(names)));
+      PetscCall(append_name(solve->mesh, mesh_body_of(solve->mesh, solve->physics->parts.part[p].first), names, sizeof(names)));
     }
     PetscCall(tell(solve, t0, moved, names));
   }

@@ -4,38 +4,43 @@ from scene import SCENES
 
 MESHES = SCENES.parent / "meshes"
 END = 4.0  # the area of the lug's pulled end
-YOUNG = {"lug": 70000, "fork": 70000, "pin": 210000}
+YOUNG = {"pin": 210000, "other": 70000}
+
+
+def pulled(bodies, holes, end, traction, steps, more):
+    """`bodies`: name -> its mesh; `holes`: interface -> surface of a hole and the pin in it; `end`: the surface that is pulled."""
+    scene = {
+        "schema": 1,
+        "bodies": list(bodies),
+        "supports": ["root"],
+        "root": {"surface": "fork.root", "components": ["x", "y", "z"]},
+        "loads": ["pull"],
+        "pull": {"surface": end, "traction": list(traction)},
+        "interfaces": list(holes),
+        "steps": {"count": steps},
+    }
+    for name, (hole, pin) in holes.items():
+        scene[name] = {"nonmortar": hole, "mortar": f"{pin}.side", "friction": 0.2}
+    for name, mesh in bodies.items():
+        young = YOUNG["pin" if mesh.startswith("pin") else "other"]
+        scene[name] = {"type": "gmsh", "file": str(MESHES / f"joint_{mesh}.msh"), "young": young, "poisson": 0.3} | more
+    return scene
 
 
 def pin_joint(traction, steps, **more):
     """Pulled at the lug's end; `more`: keys of every body."""
-    scene = {
-        "schema": 1,
-        "bodies": list(YOUNG),
-        "supports": ["root"],
-        "root": {"surface": "fork.root", "components": ["x", "y", "z"]},
-        "loads": ["pull"],
-        "pull": {"surface": "lug.pull", "traction": list(traction)},
-        "interfaces": ["inner", "outer"],
-        "inner": {"nonmortar": "lug.hole", "mortar": "pin.side", "friction": 0.2},
-        "outer": {"nonmortar": "fork.holes", "mortar": "pin.side", "friction": 0.2},
-        "steps": {"count": steps},
-    }
-    return scene | {name: {"type": "gmsh", "file": str(MESHES / f"joint_{name}.msh"), "young": young, "poisson": 0.3} | more for name, young in YOUNG.items()}
+    bodies = {"lug": "lug", "fork": "fork", "pin": "pin"}
+    holes = {"inner": ("lug.hole", "pin"), "outer": ("fork.holes", "pin")}
+    return pulled(bodies, holes, "lug.pull", traction, steps, more)
 
 
 def pin_chain(traction, steps, **more):
     """A fork, a link and another fork, with a pin between each two; pulled at the end of the last one."""
-    scene = pin_joint(traction, steps, **more)
     bodies = {"fork": "fork", "link": "link", "end": "end", "first": "pin", "second": "pin_2"}
-    pins = (("fork.holes", "first"), ("link.left", "first"), ("link.right", "second"), ("end.holes", "second"))
-    for old in YOUNG | dict.fromkeys(("inner", "outer")):
-        del scene[old]
-    for name, file in bodies.items():
-        young = YOUNG["pin" if file.startswith("pin") else "fork"]
-        scene[name] = {"type": "gmsh", "file": str(MESHES / f"joint_{file}.msh"), "young": young, "poisson": 0.3} | more
-    names = [hole.replace(".", "") for hole, _ in pins]
-    for name, (hole, pin) in zip(names, pins):
-        scene[name] = {"nonmortar": hole, "mortar": f"{pin}.side", "friction": 0.2}
-    scene["pull"] = scene["pull"] | {"surface": "end.pull"}
-    return scene | {"bodies": list(bodies), "interfaces": names}
+    holes = {
+        "forkholes": ("fork.holes", "first"),
+        "linkleft": ("link.left", "first"),
+        "linkright": ("link.right", "second"),
+        "endholes": ("end.holes", "second"),
+    }
+    return pulled(bodies, holes, "end.pull", traction, steps, more)

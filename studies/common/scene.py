@@ -182,12 +182,13 @@ def _cpu_of_children():
 
 
 class Driver:
-    """The program in a build tree; outputs go to subdirectories of `output`. With `keep` a run whose outputs are
+    """The program in a build tree, `build`; outputs go to subdirectories of `output`. With `keep` a run whose outputs are
     newer than its inputs (program, scene, meshes) and that had the same options is read instead of made again; `report`
     is told of every run, with the number of seconds, or None if it was kept."""
 
     def __init__(self, build, output, keep=False, report=lambda label, run, seconds: None):
-        self.program = Path(build).resolve() / "program" / "stickslip"
+        self.build = Path(build).resolve()
+        self.program = self.build / "program" / "stickslip"
         self.output = Path(output).resolve()
         self.keep, self.report = keep, report
         if not self.program.is_file():

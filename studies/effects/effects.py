@@ -192,7 +192,7 @@ class Probe:
     """Counts the instructions of a residual and a tangent of one interface; None where there is no valgrind."""
 
     def __init__(self, driver):
-        self.program, self.known = driver.program.with_name("effects_probe"), {}
+        self.program, self.known = driver.build / "c_examples" / "effects_probe", {}
         self.valgrind = shutil.which("valgrind")
 
     def millions(self, effects, of=CALLS):

@@ -98,7 +98,7 @@ def sort_by_place(places, displacements):
 
 def run_host(driver, name, weights, options):
     """Places and displacements of the nodes, sorted by place, and the Newton iterations of each step."""
-    program = driver.program.parents[1] / "c_examples" / name
+    program = driver.build / "c_examples" / name
     if not program.is_file():
         raise SceneError(f"{program} is not there: run `make build` first")
     path = driver.output / f"{name}_{weights}.txt"

@@ -71,7 +71,7 @@ class Planted(Driver):
     """The driver with a fault."""
 
     def __init__(self, driver):
-        super().__init__(driver.program.parents[1], driver.output)
+        super().__init__(driver.build, driver.output)
         self.program = driver.program.parent / "planted_faults"
 
 
