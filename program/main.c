@@ -195,7 +195,8 @@ int main(int argc, char **argv)
   if (!have_scene) {
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                            "stickslip: the scene is missing: name its YAML file.\n"
-                           "usage: %s FILE.yaml [-output_dir DIR] [any PETSc option]\n", argv[0]));
+                           "usage: %s FILE.yaml [-output_dir DIR] [any PETSc option]\n"
+                           "       %s -keys [LIST]     what a scene may say\n", argv[0], argv[0]));
     PetscCall(PetscFinalize());
     return 1;
   }

@@ -30,9 +30,33 @@ void scene_end_run(Scene *scene, const char *sentence)
   exit(1);
 }
 
+/* Does this key stand in the map itself? Its word then, else NULL. */
+static const char *word_in(const SceneKey *key, const char *map)
+{
+  const size_t length = strlen(map);
+  return !strncmp(key->dotted, map, length) && key->dotted[length] == '.' ? key->dotted + length + 1 : NULL;
+}
+
+/* Of a key that does not stand in its map: the line of the map (0: there is none), and the first word there that is no key,
+ * which may have been meant for it. */
+static PetscInt look_around(const Scene *scene, const char *map, char told[], size_t length)
+{
+  const char *item = scene_item(scene, map);
+  PetscInt    line = 0;
+  for (PetscInt k = 0; k < scene->n_keys; k++) {
+    const char *word = word_in(&scene->keys[k], map);
+    if (!word) continue;
+    if (!line) line = scene->keys[k].line;
+    if (!item || strchr(word, '.') || keys_find(item, word, NULL)) continue;
+    snprintf(told, length, " '%s' (line %d) is no key.", word, (int)scene->keys[k].line);
+    break;
+  }
+  return line;
+}
+
 void scene_fail(Scene *scene, const char *map, const char *key, const char *format, ...)
 {
-  char     sentence[PETSC_MAX_PATH_LEN + 2048], text[1024], dotted[2 * NAME_LENGTH + 2] = "";
+  char     sentence[PETSC_MAX_PATH_LEN + 2048], text[1024], dotted[2 * NAME_LENGTH + 2] = "", around[2 * NAME_LENGTH + 64] = "";
   PetscInt line = 0;
   va_list  arguments;
   if (key)
@@ -42,11 +66,12 @@ void scene_fail(Scene *scene, const char *map, const char *key, const char *form
   for (PetscInt k = 0; k < scene->n_keys && !line; k++) {
     if (!strcmp(scene->keys[k].dotted, dotted)) line = scene->keys[k].line;
   }
+  if (!line && map && key) line = look_around(scene, map, around, sizeof(around));
   va_start(arguments, format);
   vsnprintf(text, sizeof(text), format, arguments);
   va_end(arguments);
   if (line)
-    snprintf(sentence, sizeof(sentence), "%s:%d: %s: %s", scene->file, (int)line, dotted, text);
+    snprintf(sentence, sizeof(sentence), "%s:%d: %s: %s%s", scene->file, (int)line, dotted, text, around);
   else
     snprintf(sentence, sizeof(sentence), "%s: %s%s%s", scene->file, dotted, dotted[0] ? ": " : "", text);
   scene_end_run(scene, sentence);

@@ -51,6 +51,7 @@ TET_3 = one_cell(29, [(k, k * k, k**3) for k in range(20)])
 BAD_SCENES = [
     BadScene("misspelt_key", "friction: 0.5", "frictoin: 0.5", "base.frictoin"),
     BadScene("missing_key", "young: 1000, poisson: 0.3, small", "poisson: 0.3, small", "block.young"),
+    BadScene("misspelt_key_that_must_be", "young: 1000, poisson: 0.3, small", "youngs: 1000, poisson: 0.3, small", "block.young", says="'youngs' (line"),
     BadScene("unknown_key", "friction: 0.5", "friction: 0.5, colour: 3", "base.colour"),
     BadScene("key_of_other_bodies", "poisson: 0.3, small", "poisson: 0.3, radius: 1, small", "block.radius", says='a key of "Analytic bodies"'),
     BadScene("nearly_a_key_of_the_table", "friction: 0.5", "friction: 0.5, criticl_slip: 1", "base.criticl_slip", says="did you mean 'base.critical_slip'"),
