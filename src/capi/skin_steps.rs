@@ -228,7 +228,7 @@ pub unsafe extern "C" fn stickslip_skin_facets(skin: *mut stickslip_skin, out: *
         raw::check_optional(out.body, "stickslip_skin_sides.body")?;
         let (whole, pieces) = (h.inner.whole(), h.inner.piece_of_facets()?);
         let mut nearest = memory::filled((-1_i64, 0.0_f64), whole.facets())?;
-        for pair in h.inner.near() {
+        for pair in h.inner.near().iter().filter(|pair| !pair.under) {
             let [f, g] = pair.facets;
             for (own, other) in [(f, g), (g, f)] {
                 if nearest[own].0 < 0 || pair.distance < nearest[own].1 {
@@ -293,7 +293,7 @@ pub unsafe extern "C" fn stickslip_skin_report(skin: *mut stickslip_skin, out: *
                 struct_size: 0,
                 bodies: h.inner.whole().body_keys.len() as i64,
                 pieces: h.inner.pieces() as i64,
-                pairs: h.inner.near().len() as i64,
+                pairs: h.inner.near().iter().filter(|pair| !pair.under).count() as i64,
                 contradictions: h.inner.contradictions() as i64,
                 made: counts.made,
                 exchanged: counts.exchanged,

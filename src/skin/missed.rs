@@ -4,9 +4,9 @@
 use super::near::Near;
 
 /// Facets that are deeper in each other than this, over the smaller one's longest edge, are in contact.
-const DEEP: f64 = 0.05;
+pub const DEEP: f64 = 0.05;
 /// They oppose each other at least so much: planes behind each other beside a corner do not meet.
-const OPPOSITION: f64 = -0.8;
+pub const OPPOSITION: f64 = -0.8;
 /// And their centres are no farther beside each other than this, over half of both sizes.
 const BESIDE: f64 = 0.5;
 
