@@ -3,8 +3,9 @@
 
 use super::near::Near;
 
-/// Facets that are deeper in each other than this, over the smaller one's longest edge, are in contact.
-pub const DEEP: f64 = 0.05;
+/// Facets that are deeper in each other than this, over the smaller one's longest edge, are in contact: the error of flat facets on curved
+/// bodies that hardly touch is less.
+const DEEP: f64 = 0.005;
 /// They oppose each other at least so much: planes behind each other beside a corner do not meet.
 pub const OPPOSITION: f64 = -0.8;
 /// And their centres are no farther beside each other than this, over half of both sizes.

@@ -1,6 +1,6 @@
 //! Which facets of a skin may touch: a search over all of it, and what rules out far sides of walls (docs/formulation 19.2).
 
-use super::missed::{DEEP, OPPOSITION as PARALLEL};
+use super::missed::OPPOSITION as PARALLEL;
 use super::table::Table;
 use super::whole::Whole;
 use crate::adjacency::Lists;
@@ -20,6 +20,9 @@ const DEEPEST: f64 = 1.0;
 const LEAST_REACH: f64 = 0.5;
 /// And how far beyond that, over the largest motion of the last step: a step may be as large again.
 pub const MOTIONS: f64 = 2.0;
+
+/// Faces over each other whose heights differ by less than this, over a facet's longest edge, are one to a facet over both of them.
+const STEP: f64 = 0.05;
 
 /// Two facets that may touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -198,7 +201,7 @@ fn find_under(whole: &Whole, seen: &Seen, motion: f64, pairs: &mut [Near]) -> Re
             }
             for [f, g] in [pair.facets, [pair.facets[1], pair.facets[0]]] {
                 let face = whole.faces[whole.surface.host_facet(g)];
-                let spare = motion + DEEP * seen.sizes[f].min(seen.sizes[g]);
+                let spare = motion + STEP * seen.sizes[f].min(seen.sizes[g]);
                 for &a in whole.surface.facets[f].as_slice() {
                     if marks {
                         pair.under |= over[a] != face && pair.distance > least[a].max(0.0) + spare;
