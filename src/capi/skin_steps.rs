@@ -293,7 +293,7 @@ pub unsafe extern "C" fn stickslip_skin_report(skin: *mut stickslip_skin, out: *
                 struct_size: 0,
                 bodies: h.inner.whole().body_keys.len() as i64,
                 pieces: h.inner.pieces() as i64,
-                pairs: h.inner.near().iter().filter(|pair| !pair.under).count() as i64,
+                pairs: h.inner.near().len() as i64,
                 contradictions: h.inner.contradictions() as i64,
                 made: counts.made,
                 exchanged: counts.exchanged,

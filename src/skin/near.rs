@@ -80,10 +80,16 @@ impl Seen {
         (PART_OF_WALL * self.walls[f]).min(DEEPEST * self.sizes[f])
     }
 
+    /// The least way of a facet's points along a vector, from the centre of another one.
+    #[inline(never)]
+    fn least(&self, f: usize, from: usize, along: &Vec3) -> f64 {
+        let way = |p: &Vec3| along.dot(&(p - self.centres[from]));
+        self.facets[f].points().iter().map(way).fold(f64::INFINITY, f64::min)
+    }
+
     /// The least height of a facet over the plane of another one.
     fn lowest(&self, f: usize, over: usize) -> f64 {
-        let height = |p: &Vec3| self.normals[over].dot(&(p - self.centres[over]));
-        self.facets[f].points().iter().map(height).fold(f64::INFINITY, f64::min)
+        self.least(f, over, &self.normals[over])
     }
 
     /// Two facets, as parts, if they may touch.
@@ -100,8 +106,8 @@ impl Seen {
         }
         let along = (self.normals[f] - self.normals[g]).normalize();
         let across = between - along * along.dot(&between);
-        // Long facets lie over others far along themselves, and not across.
-        let (aside, half) = (across.norm(), self.extent(f, &across) + self.extent(g, &across));
+        // How far both reach towards each other: long facets far along themselves, and not across.
+        let (aside, half) = (across.norm(), -self.least(f, f, &-across) - self.least(g, g, &across));
         let beside = if aside > 0.0 { aside * aside / half } else { 0.0 };
         (aside * aside <= half + 0.5 * reach * aside).then_some(Near {
             facets: [f, g],
@@ -110,12 +116,6 @@ impl Seen {
             beside,
             under: false,
         })
-    }
-
-    /// How far a facet reaches from its centre along a vector, times its length.
-    fn extent(&self, f: usize, along: &Vec3) -> f64 {
-        let offset = |p: &Vec3| along.dot(&(p - self.centres[f])).abs();
-        self.facets[f].points().iter().map(offset).fold(0.0, f64::max)
     }
 }
 
@@ -192,22 +192,27 @@ fn visible(seen: &Seen, pairs: &[Near]) -> Result<Vec<Near>> {
 /// both. A weighted gap is a mean over the facets around a node, and at the sheet's border it would be one over both heights. Once the step
 /// that follows may come as near the pair counts.
 fn find_under(whole: &Whole, seen: &Seen, motion: f64, pairs: &mut [Near]) -> Result<()> {
+    // Of each copy how far its nearest partner is, and which.
     let mut least = memory::filled(f64::INFINITY, whole.copies())?;
     let mut over = memory::filled(0, whole.copies())?;
+    let face = |f: usize| whole.faces[whole.surface.host_facet(f)];
     for marks in [false, true] {
         for pair in &mut *pairs {
             if pair.opposition >= PARALLEL {
                 continue;
             }
             for [f, g] in [pair.facets, [pair.facets[1], pair.facets[0]]] {
-                let face = whole.faces[whole.surface.host_facet(g)];
-                let spare = motion + STEP * seen.sizes[f].min(seen.sizes[g]);
+                let step = STEP * seen.sizes[f].min(seen.sizes[g]);
                 for &a in whole.surface.facets[f].as_slice() {
-                    if marks {
-                        pair.under |= over[a] != face && pair.distance > least[a].max(0.0) + spare;
-                    } else if pair.distance < least[a] {
-                        (least[a], over[a]) = (pair.distance, face);
+                    let p = over[a];
+                    if !marks && pair.distance < least[a] {
+                        (least[a], over[a]) = (pair.distance, g);
                     }
+                    // Lower than the plane of the nearest one, and out of reach.
+                    pair.under |= marks
+                        && pair.distance > least[a].max(0.0) + motion + step
+                        && seen.normals[p].dot(&(seen.centres[p] - seen.centres[g])) > step
+                        && face(p) != face(g);
                 }
             }
         }
