@@ -1,6 +1,5 @@
 //! Which facets of a skin may touch: a search over all of it, and what rules out far sides of walls (docs/formulation 19.2).
 
-use super::missed::OPPOSITION as PARALLEL;
 use super::table::Table;
 use super::whole::Whole;
 use crate::adjacency::Lists;
@@ -21,6 +20,8 @@ const LEAST_REACH: f64 = 0.5;
 /// And how far beyond that, over the largest motion of the last step: a step may be as large again.
 pub const MOTIONS: f64 = 2.0;
 
+/// Facets lie along each other if their normals oppose at least so much: planes behind each other beside a corner do not.
+pub const PARALLEL: f64 = -0.8;
 /// Faces over each other whose heights differ by less than this, over a facet's longest edge, are one to a facet over both of them.
 const STEP: f64 = 0.05;
 
