@@ -28,29 +28,42 @@ PetscErrorCode contact_looks_anew(Contact *contact, PetscBool *anew)
     *anew              = PETSC_TRUE;
     PetscCall(skin_look(part));
   }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, anew, 1, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The other sides of a part's skin; `done`: it has some, and its multipliers are in part->gathered. */
+static PetscErrorCode exchange(ContactPart *part, PetscBool *done)
+{
+  stickslip_skin_summary found = {.struct_size = sizeof(found)};
+  PetscFunctionBegin;
+  *done = PETSC_FALSE;
+  if (!part->skin || part->skin->exchanged) PetscFunctionReturn(PETSC_SUCCESS);
+  skin_point(part);
+  part->skin->exchanged = PETSC_TRUE;
+  if (stickslip_skin_exchange(part->skin->handle, part->skin->lambda)) PetscFunctionReturn(PETSC_SUCCESS);
+  skin_to_part(part, part->dimension, part->skin->lambda, MULTIPLIERS_OF(part, part->gathered));
+  PetscCall(skin_look(part));
+  PetscCallStickslip(stickslip_skin_report(part->skin->handle, &found));
+  *done = (PetscBool)(found.pieces > 0);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The other sides, once a step, from x, which is t_n; `any`: there are some, and it is another x. */
 PetscErrorCode contact_exchange(Contact *contact, Vec x, PetscBool *any)
 {
-  stickslip_skin_summary found = {.struct_size = sizeof(found)};
   PetscFunctionBegin;
   *any = PETSC_FALSE;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    Interface   *interface = &contact->interfaces[i];
-    ContactPart *part      = &interface->part;
-    if (!part->skin || part->skin->exchanged) continue;
+    Interface *interface = &contact->interfaces[i];
+    PetscBool  done;
+    if (!interface->skin) continue;
     PetscCall(unknowns_to_local(contact->physics, x));
     PetscCall(contact_gather(contact, interface, contact->physics->u_local));
-    skin_point(part);
-    part->skin->exchanged = PETSC_TRUE;
-    if (stickslip_skin_exchange(part->skin->handle, part->skin->lambda)) continue;
-    skin_to_part(part, part->dimension, part->skin->lambda, MULTIPLIERS_OF(part, part->gathered));
-    PetscCall(skin_hand_over(contact, interface, x));
-    PetscCall(skin_look(part));
-    PetscCallStickslip(stickslip_skin_report(part->skin->handle, &found));
-    *any = (PetscBool)(*any || found.pieces > 0);
+    PetscCall(exchange(&interface->part, &done));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &done, 1, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
+    if (done) PetscCall(skin_hand_over(contact, interface, x));
+    *any = (PetscBool)(*any || done);
   }
   if (*any) contact->refusal[0] = 0;
   PetscFunctionReturn(PETSC_SUCCESS);

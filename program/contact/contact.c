@@ -203,7 +203,7 @@ PetscErrorCode contact_commit(Contact *contact, Vec x, PetscInt *status)
   }
   if (!*status) PetscCall(settle(contact));
   for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
-    if (contact->interfaces[i].part.skin) PetscCall(skin_hand_over(contact, &contact->interfaces[i], x));
+    if (contact->interfaces[i].skin) PetscCall(skin_hand_over(contact, &contact->interfaces[i], x));
   }
   PetscCall(PetscFree(done));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -96,11 +96,11 @@ static PetscBool offsets_allow_parts(const Interface *interface)
   return (PetscBool)(!offsets->n_points && offsets->radius[0] == 0 && offsets->radius[1] == 0);
 }
 
-/* One rank has all nodes where the library does not know parts, as where points decide. Lines of a plane model are few; they
- * stay together, too. */
+/* One rank has all nodes where the library does not know parts, as of a skin and where points decide. Lines of a plane model are few;
+ * they stay together, too. */
 static PetscBool must_be_whole(const Contact *contact, const Interface *interface)
 {
-  return (PetscBool)(interface->dimension == 2 || decision_is_points(interface) || (contact->condensed && interface->middles) ||
+  return (PetscBool)(interface->dimension == 2 || interface->skin || decision_is_points(interface) || (contact->condensed && interface->middles) ||
                      !offsets_allow_parts(interface));
 }
 
@@ -111,7 +111,7 @@ static PetscErrorCode choose_owners(const Contact *contact, PetscInt number, Pet
   const PetscMPIInt size      = contact->mesh->size;
   PetscFunctionBegin;
   for (PetscInt a = 0; a < interface->n1; a++)
-    interface->owner[a] = number % size;
+    interface->owner[a] = interface->skin ? 0 : number % size; /* rank 0 tells of a skin */
   if (!whole && !must_be_whole(contact, interface))
     PetscCall(partition_nodes(PETSC_COMM_WORLD, interface->dimension, interface->n1, interface->first[0], interface->X, work, size,
                               interface->owner));

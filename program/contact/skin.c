@@ -254,3 +254,30 @@ PetscErrorCode skin_look(ContactPart *part)
   PetscCall(skin_facets_destroy(&facets));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+PetscErrorCode skin_nodes(const Interface *interface, SkinNode **nodes)
+{
+  const ContactStates *states = &interface->states;
+  SkinNode            *home;
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(interface->n1, &home));
+  PetscCall(PetscMalloc1(interface->part.n1, nodes));
+  for (PetscInt a = 0; a < interface->n1; a++) {
+    SkinNode *node = &home[a];
+    *node          = (SkinNode){.state = states->state[a], .gap = states->gap[a], .coverage = states->coverage[a]};
+    PetscCall(PetscArraycpy(node->multiplier, states->multiplier + 3 * a, 3));
+    PetscCall(PetscArraycpy(node->normal, states->normal + 3 * a, 3));
+    contact_vector(interface->dimension, interface->displacements, a, node->displacement);
+  }
+  PetscCall(parts_send(&interface->part, sizeof(SkinNode) / sizeof(double), (const double *)home, (double *)*nodes));
+  PetscCall(PetscFree(home));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscReal skin_pressure(const SkinNode *node)
+{
+  PetscReal pressure = 0;
+  for (int i = 0; i < 3; i++)
+    pressure -= node->multiplier[i] * node->normal[i];
+  return pressure;
+}

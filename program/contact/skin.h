@@ -44,6 +44,11 @@ typedef struct {
   double  *distance;
 } SkinFacets;
 
+/* What is known of a node of the part, at home on any rank (ContactStates); vectors have three numbers. */
+typedef struct {
+  double state, gap, coverage, multiplier[3], normal[3], displacement[3];
+} SkinNode;
+
 /* skin_scene.c */
 PetscBool      skin_wanted(Scene *scene);
 PetscErrorCode skin_read(Scene *scene, const Contact *contact, Interface *interface);
@@ -62,4 +67,7 @@ void           skin_to_part(const ContactPart *part, PetscInt width, const doubl
 PetscErrorCode skin_look(ContactPart *part); /* what lies opposite of each node */
 PetscErrorCode skin_facets(const ContactPart *part, SkinFacets *facets);
 PetscErrorCode skin_facets_destroy(SkinFacets *facets);
+/* On every rank, when the states have been collected: of the part's nodes; to be freed. */
+PetscErrorCode skin_nodes(const Interface *interface, SkinNode **nodes);
+PetscReal      skin_pressure(const SkinNode *node);
 #endif

@@ -103,10 +103,7 @@ static PetscErrorCode read_friction(Scene *scene, const Mesh *mesh, Interface *i
 
 PetscErrorCode skin_read(Scene *scene, const Contact *contact, Interface *interface)
 {
-  PetscMPIInt size;
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
-  if (size > 1) scene_fail(scene, NULL, "contact", "general contact runs on one rank, and there are %d: name pairs in `interfaces`.", (int)size);
   if (contact->condensed)
     scene_fail(scene, NULL, "unknowns", "general contact has its multipliers among the unknowns: take `unknowns: multipliers`.");
   if (contact->physics->dynamics)
@@ -145,8 +142,55 @@ static void leave_out_cuts(const Mesh *mesh, const PetscInt axes[], PetscReal to
       skin->n_left++;
       continue;
     }
+    outer->numbers[outer->n_faces] = outer->numbers[f];
     surface_push(outer, end - at, face);
   }
+}
+
+/* A vertex that is held across a plane: its place along the axis, and its body. */
+typedef struct {
+  PetscReal place, body;
+} Held;
+
+static int by_place(const void *a, const void *b, void *context)
+{
+  const Held *one = a, *two = b;
+  (void)context;
+  if (one->place != two->place) return one->place < two->place ? -1 : 1;
+  return (one->body > two->body) - (one->body < two->body);
+}
+
+/* Those of all ranks, in their order, each place of a body once. To be freed. */
+static PetscErrorCode gather_held(const Mesh *mesh, const PetscBool wanted[], const PetscInt axes[], int axis, PetscInt *n, Held **all)
+{
+  PetscMPIInt *counts, *starts, count, total = 0;
+  Held        *mine;
+  PetscInt     m = 0;
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(mesh->n_vertices, &mine));
+  for (PetscInt v = 0; v < mesh->n_vertices; v++) {
+    const PetscInt body = mesh_body_of(mesh, mesh->numbers[v]);
+    if (axes[v] >> axis & 1 && wanted[body]) mine[m++] = (Held){mesh->coordinates[3 * v + axis], body};
+  }
+  if (m > 1) PetscCall(PetscTimSort(m, mine, sizeof(*mine), by_place, NULL));
+  count = 0;
+  for (PetscInt k = 0; k < m; k++) {
+    if (!count || by_place(&mine[count - 1], &mine[k], NULL)) mine[count++] = mine[k];
+  }
+  count *= (PetscMPIInt)sizeof(Held);
+  PetscCall(PetscMalloc2(mesh->size, &counts, mesh->size, &starts));
+  PetscCallMPI(MPI_Allgather(&count, 1, MPI_INT, counts, 1, MPI_INT, PETSC_COMM_WORLD));
+  for (PetscMPIInt r = 0; r < mesh->size; r++) {
+    starts[r] = total;
+    total += counts[r];
+  }
+  *n = total / (PetscInt)sizeof(Held);
+  PetscCall(PetscMalloc1(*n, all));
+  PetscCallMPI(MPI_Allgatherv(mine, count, MPI_BYTE, *all, counts, starts, MPI_BYTE, PETSC_COMM_WORLD));
+  if (*n > 1) PetscCall(PetscTimSort(*n, *all, sizeof(**all), by_place, NULL));
+  PetscCall(PetscFree2(counts, starts));
+  PetscCall(PetscFree(mine));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Where one body alone is held and others pass the plane, contact may rub across it. */
@@ -158,24 +202,20 @@ static PetscErrorCode find_symmetry(const Mesh *mesh, const PetscBool wanted[], 
     n_wanted += wanted[b];
   PetscCall(PetscCalloc1(mesh->n_vertices, &skin->symmetry));
   for (int i = 0; i < mesh->dimension; i++) {
-    PetscInt *order, n = 0;
-    PetscReal *place;
-    PetscCall(PetscMalloc2(mesh->n_vertices, &order, mesh->n_vertices, &place));
-    for (PetscInt v = 0; v < mesh->n_vertices; v++) {
-      if (!(axes[v] >> i & 1) || !wanted[mesh_body_of(mesh, mesh->numbers[v])]) continue;
-      place[n]   = mesh->coordinates[3 * v + i];
-      order[n++] = v;
-    }
-    PetscCall(PetscSortRealWithArrayInt(n, place, order));
+    PetscInt n = 0;
+    Held    *held;
+    PetscCall(gather_held(mesh, wanted, axes, i, &n, &held));
     for (PetscInt first = 0, end; first < n; first = end) {
-      const PetscInt body  = mesh_body_of(mesh, mesh->numbers[order[first]]);
-      PetscBool      other = (PetscBool)(n_wanted == 1);
-      for (end = first; end < n && place[end] - place[first] <= tolerance; end++)
-        other = (PetscBool)(other || mesh_body_of(mesh, mesh->numbers[order[end]]) != body);
-      for (PetscInt k = first; k < end && other; k++)
-        skin->symmetry[order[k]] |= 1 << i;
+      PetscBool other = (PetscBool)(n_wanted == 1);
+      for (end = first; end < n && held[end].place - held[first].place <= tolerance; end++)
+        other = (PetscBool)(other || held[end].body != held[first].body);
+      for (PetscInt v = 0; v < mesh->n_vertices && other; v++) {
+        const PetscReal place = mesh->coordinates[3 * v + i];
+        if (axes[v] >> i & 1 && wanted[mesh_body_of(mesh, mesh->numbers[v])] && place >= held[first].place && place <= held[end - 1].place)
+          skin->symmetry[v] |= 1 << i;
+      }
     }
-    PetscCall(PetscFree2(order, place));
+    PetscCall(PetscFree(held));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -205,6 +245,7 @@ PetscErrorCode skin_find(Scene *scene, const Contact *contact, Interface *interf
   Skin       *skin = interface->skin;
   PetscBool  *wanted, *without, any = PETSC_FALSE;
   PetscInt   *axes;
+  PetscInt    counts[2];
   PetscReal   tolerance;
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(mesh->n_bodies, &wanted));
@@ -218,9 +259,14 @@ PetscErrorCode skin_find(Scene *scene, const Contact *contact, Interface *interf
   PetscCall(part_bodies(contact, wanted, skin));
   PetscCall(mesh_outer(mesh, wanted, without, &skin->outer));
   PetscCall(symmetry_walls(contact->physics, axes, &tolerance));
+  PetscCall(pieces_unite(mesh, axes, MPI_BOR)); /* a piece may have a vertex of a support, and no face of it */
   leave_out_cuts(mesh, axes, tolerance, skin);
   PetscCall(find_symmetry(mesh, wanted, axes, tolerance, skin));
-  if (!skin->outer.n_faces) scene_fail(scene, NULL, EXCEPT, "no face is left that could touch another one.");
+  counts[0] = skin->outer.n_faces;
+  counts[1] = skin->n_left;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
+  skin->n_left = counts[1];
+  if (!counts[0]) scene_fail(scene, NULL, EXCEPT, "no face is left that could touch another one.");
   PetscCall(PetscSNPrintf(skin->outer.name, sizeof(skin->outer.name), "%s", NAME));
   PetscCall(PetscFree(wanted));
   PetscCall(PetscFree2(without, axes));

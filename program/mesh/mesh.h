@@ -132,7 +132,7 @@ PetscErrorCode surface_split(const Mesh *mesh, const PetscInt vertices[], const 
                              PetscInt **nodes, PetscInt **node_copies);
 PetscErrorCode surface_destroy(Surface *surface);
 
-/* outer.c, on one rank: the outer faces of the bodies that are wanted, without those of some of the mesh's surfaces */
+/* outer.c: of the piece the outer faces of the bodies that are wanted, without those of some of the mesh's surfaces */
 PetscErrorCode mesh_outer(const Mesh *mesh, const PetscBool wanted[], const PetscBool without[], Surface *outer);
 
 /* plex.c */

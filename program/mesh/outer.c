@@ -1,8 +1,9 @@
-/* The outer faces of bodies: those of one cell alone; of a rigid body, which has no cells, those of its surfaces. */
+/* The outer faces of bodies: those of one cell alone; of a rigid body, which has no cells, those of its surfaces. They are numbered by their
+ * cells, so that they have one order on any number of ranks. */
 #include "mesh/mesh.h"
 #include <string.h>
 
-/* A face: its corners in increasing order, by which others are the same; which of the order it was met in, and where it comes from. */
+/* A face: its corners in increasing order, by which others are the same; its number, and where it comes from. */
 typedef struct {
   PetscInt corners[4], number, body, source, face;
   PetscBool dropped;
@@ -34,7 +35,6 @@ static PetscErrorCode add(PetscInt n, const PetscInt vertices[], Face face, Pets
   for (PetscInt k = 0; k < 4; k++)
     face.corners[k] = k < n ? vertices[k] : -1;
   PetscCall(PetscSortInt(4, face.corners));
-  face.number          = *n_faces;
   (*faces)[(*n_faces)++] = face;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -61,25 +61,36 @@ static PetscInt nodes_of(const Mesh *mesh, const Face *face, PetscInt vertices[F
   return n;
 }
 
+/* The number of a face of a surface, of all ranks. */
+static PetscInt number_in(const Surface *surface, PetscInt f)
+{
+  return surface->numbers ? surface->numbers[f] : f;
+}
+
 static PetscErrorCode collect(const Mesh *mesh, const PetscBool wanted[], const PetscBool without[], PetscInt *n, Face **faces)
 {
-  PetscInt vertices[FACE_NODES];
+  PetscInt vertices[FACE_NODES], first = CELL_CORNERS * mesh->n_all_cells; /* numbers of faces of cells are below */
   PetscFunctionBegin;
   for (PetscInt c = 0; c < mesh->n_cells; c++) {
     const Body *body = &mesh->bodies[mesh->cell_body[c]];
     for (PetscInt f = 0; f < cell_faces(mesh_cell_kind(mesh, c)) && wanted[mesh->cell_body[c]] && !body->analytic && !body->rigid; f++) {
-      const Face face = {.body = mesh->cell_body[c], .source = OF_CELLS, .face = CELL_CORNERS * c + f};
+      const Face face = {.number = CELL_CORNERS * mesh->cell_numbers[c] + f, .body = mesh->cell_body[c], .source = OF_CELLS,
+                         .face = CELL_CORNERS * c + f};
       PetscCall(add(corners_of(mesh, nodes_of(mesh, &face, vertices)), vertices, face, n, faces));
     }
   }
   for (PetscInt s = 0; s < mesh->n_surfaces; s++) {
     const Surface *surface = &mesh->surfaces[s];
+    PetscInt       end     = 0;
     for (PetscInt f = 0; f < surface->n_faces; f++) {
-      Face face = {.source = s, .face = f, .dropped = without[s]};
+      Face face = {.number = first + number_in(surface, f), .source = s, .face = f, .dropped = without[s]};
+      end       = PetscMax(end, number_in(surface, f) + 1);
       face.body = mesh_body_of(mesh, mesh->numbers[surface->vertices[surface->offsets[f]]]);
       if (face.body < 0 || !wanted[face.body] || (!mesh->bodies[face.body].rigid && !without[s])) continue;
       PetscCall(add(corners_of(mesh, nodes_of(mesh, &face, vertices)), vertices, face, n, faces));
     }
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &end, 1, MPIU_INT, MPI_MAX, PETSC_COMM_WORLD));
+    first += end;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -100,22 +111,87 @@ static PetscInt select_outer(const Mesh *mesh, PetscInt n, Face faces[])
   return kept;
 }
 
+/* Whether all corners of a face are in several pieces: then another piece may have the cell behind it. */
+static PetscBool on_border(const Face *face, const PetscInt pieces[])
+{
+  for (int k = 0; k < 4; k++) {
+    if (face->corners[k] >= 0 && pieces[face->corners[k]] < 2) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
+/* The faces between pieces, of all ranks, with the numbers of their vertices; those that two ranks have are inner ones. Returns how many of the
+ * n faces here are left. */
+static PetscErrorCode drop_shared(const Mesh *mesh, PetscInt *n, Face faces[])
+{
+  enum { WIDTH = 4 };
+  PetscInt    *pieces, *mine, *all, n_mine = 0, n_all = 0, kept = 0, m = 0;
+  PetscMPIInt *counts, *starts, count;
+  Face        *others = NULL;
+  PetscFunctionBegin;
+  if (mesh->size == 1) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc1(mesh->n_vertices, &pieces));
+  for (PetscInt v = 0; v < mesh->n_vertices; v++)
+    pieces[v] = 1;
+  PetscCall(pieces_unite(mesh, pieces, MPI_SUM));
+  PetscCall(PetscMalloc1(WIDTH * *n, &mine));
+  for (PetscInt f = 0; f < *n; f++) {
+    if (!on_border(&faces[f], pieces)) continue;
+    for (int k = 0; k < WIDTH; k++)
+      mine[n_mine++] = faces[f].corners[k] < 0 ? -1 : mesh->numbers[faces[f].corners[k]];
+  }
+  count = (PetscMPIInt)n_mine;
+  PetscCall(PetscMalloc2(mesh->size, &counts, mesh->size, &starts));
+  PetscCallMPI(MPI_Allgather(&count, 1, MPI_INT, counts, 1, MPI_INT, PETSC_COMM_WORLD));
+  for (PetscMPIInt r = 0; r < mesh->size; r++) {
+    starts[r] = (PetscMPIInt)n_all;
+    n_all += counts[r];
+  }
+  PetscCall(PetscMalloc1(n_all, &all));
+  PetscCallMPI(MPI_Allgatherv(mine, count, MPIU_INT, all, counts, starts, MPIU_INT, PETSC_COMM_WORLD));
+  for (PetscInt k = 0; k < n_all; k += WIDTH)
+    PetscCall(add(WIDTH, all + k, (Face){0}, &m, &others));
+  if (m > 1) PetscCall(PetscTimSort(m, others, sizeof(*others), by_corners, NULL));
+  for (PetscInt f = 0; f < *n; f++) {
+    Face     key   = {.number = -1};
+    PetscInt low   = 0, high = m;
+    for (int k = 0; k < 4; k++)
+      key.corners[k] = faces[f].corners[k] < 0 ? -1 : mesh->numbers[faces[f].corners[k]];
+    while (low < high) {
+      const PetscInt middle = (low + high) / 2;
+      if (by_corners(&others[middle], &key, NULL) < 0) low = middle + 1;
+      else high = middle;
+    }
+    if (low + 1 < m && !memcmp(others[low + 1].corners, key.corners, sizeof(key.corners))) continue; /* it is there twice */
+    faces[kept++] = faces[f];
+  }
+  *n = kept;
+  PetscCall(PetscFree2(counts, starts));
+  PetscCall(PetscFree(pieces));
+  PetscCall(PetscFree(mine));
+  PetscCall(PetscFree(all));
+  PetscCall(PetscFree(others));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode mesh_outer(const Mesh *mesh, const PetscBool wanted[], const PetscBool without[], Surface *outer)
 {
   PetscInt n = 0;
   Face    *faces = NULL;
   PetscFunctionBegin;
-  PetscCheck(mesh->size == 1, PETSC_COMM_WORLD, PETSC_ERR_SUP, "outer faces of a mesh in pieces");
   PetscCall(collect(mesh, wanted, without, &n, &faces));
-  PetscCall(PetscTimSort(n, faces, sizeof(*faces), by_corners, NULL));
+  if (n > 1) PetscCall(PetscTimSort(n, faces, sizeof(*faces), by_corners, NULL));
   n = select_outer(mesh, n, faces);
-  PetscCall(PetscTimSort(n, faces, sizeof(*faces), by_number, NULL));
+  PetscCall(drop_shared(mesh, &n, faces));
+  if (n > 1) PetscCall(PetscTimSort(n, faces, sizeof(*faces), by_number, NULL));
   *outer = (Surface){0};
   PetscCall(PetscMalloc2(n + 1, &outer->offsets, FACE_NODES * n, &outer->vertices));
+  PetscCall(PetscMalloc1(n, &outer->numbers));
   outer->offsets[0] = 0;
   for (PetscInt k = 0; k < n; k++) {
     PetscInt       vertices[FACE_NODES];
-    const PetscInt m = nodes_of(mesh, &faces[k], vertices);
+    const PetscInt m  = nodes_of(mesh, &faces[k], vertices);
+    outer->numbers[k] = faces[k].number;
     surface_push(outer, m, vertices);
   }
   PetscCall(PetscFree(faces));

@@ -13,6 +13,11 @@ typedef struct {
   PetscReal nearest, pressure;
 } Touching;
 
+/* A facet that has multipliers, and the bodies that it is between, the smaller number first. */
+typedef struct {
+  PetscInt pair[2], facet;
+} Between;
+
 PETSC_ATTRIBUTE_FORMAT(2, 3) static void say(cJSON *sentences, const char *format, ...)
 {
   char    sentence[SENTENCE];
@@ -28,35 +33,50 @@ static const char *plural(int64_t n)
   return n == 1 ? "" : "s";
 }
 
-/* What there is between bodies a <= b. */
-static PetscErrorCode look_at_pair(const Interface *interface, const SkinFacets *facets, const PetscInt pair[2], Touching *found)
+static int by_pair(const void *a, const void *b, void *context)
 {
-  const ContactPart   *part   = &interface->part;
-  const ContactStates *states = &interface->states;
-  PetscBool           *seen;
+  const Between *one = a, *two = b;
+  (void)context;
+  for (int k = 0; k < 2; k++) {
+    if (one->pair[k] != two->pair[k]) return one->pair[k] < two->pair[k] ? -1 : 1;
+  }
+  return (one->facet > two->facet) - (one->facet < two->facet);
+}
+
+/* Facets that may touch another one, by the bodies that they are between; to be freed. */
+static PetscErrorCode find_pairs(const ContactPart *part, const SkinFacets *facets, PetscInt *n, Between **found)
+{
   PetscFunctionBegin;
-  *found = (Touching){.nearest = PETSC_MAX_REAL};
-  PetscCall(PetscCalloc1(part->n1, &seen));
+  *n = 0;
+  PetscCall(PetscMalloc1(part->n_facets[0], found));
   for (PetscInt f = 0; f < part->n_facets[0]; f++) {
-    const int64_t own = facets->body[f], other = facets->partner[f] < 0 ? -1 : facets->body[facets->partner[f]];
-    if (facets->side[f] != STICKSLIP_SKIN_NONMORTAR || PetscMin(own, other) != pair[0] || PetscMax(own, other) != pair[1]) continue;
-    found->facets++;
-    found->nearest = PetscMin(found->nearest, facets->distance[f]);
+    const PetscInt own = (PetscInt)facets->body[f], other = facets->partner[f] < 0 ? -1 : (PetscInt)facets->body[facets->partner[f]];
+    if (facets->side[f] != STICKSLIP_SKIN_NONMORTAR || other < 0) continue;
+    (*found)[(*n)++] = (Between){{PetscMin(own, other), PetscMax(own, other)}, f};
+  }
+  if (*n > 1) PetscCall(PetscTimSort(*n, *found, sizeof(**found), by_pair, NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What there is between two bodies; `seen`: of each node the last pair that it was counted for. */
+static Touching look_at_pair(const ContactPart *part, const SkinFacets *facets, PetscInt n, const Between between[], const SkinNode nodes[],
+                             PetscInt number, PetscInt seen[])
+{
+  Touching found = {.facets = n, .nearest = PETSC_MAX_REAL};
+  for (PetscInt i = 0; i < n; i++) {
+    const PetscInt f = between[i].facet;
+    found.nearest    = PetscMin(found.nearest, facets->distance[f]);
     for (PetscInt k = part->offsets[0][f]; k < part->offsets[0][f + 1]; k++) {
-      const PetscInt a = part->nodes[part->facet_nodes[0][k]];
-      PetscReal      pressure = 0;
-      if (seen[a] || states->state[a] == STICKSLIP_STATE_GAP || interface->middle[a]) continue;
-      seen[a] = PETSC_TRUE;
-      for (int i = 0; i < 3; i++)
-        pressure -= states->multiplier[3 * a + i] * states->normal[3 * a + i];
-      found->nodes++;
-      found->sticks += states->state[a] == STICKSLIP_STATE_STICK;
-      found->slips += states->state[a] == STICKSLIP_STATE_SLIP;
-      found->pressure = PetscMax(found->pressure, pressure);
+      const PetscInt a = part->facet_nodes[0][k];
+      if (seen[a] == number || nodes[a].state == STICKSLIP_STATE_GAP || part->middle[a]) continue;
+      seen[a] = number;
+      found.nodes++;
+      found.sticks += nodes[a].state == STICKSLIP_STATE_STICK;
+      found.slips += nodes[a].state == STICKSLIP_STATE_SLIP;
+      found.pressure = PetscMax(found.pressure, skin_pressure(&nodes[a]));
     }
   }
-  PetscCall(PetscFree(seen));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return found;
 }
 
 static void tell_pair(const Body bodies[], const PetscInt pair[2], const Touching *found, cJSON *touching, cJSON *sentences)
@@ -88,20 +108,48 @@ static void find_bodies(const SkinFacets *facets, PetscInt n, PetscBool there[],
   }
 }
 
-static PetscErrorCode tell_bodies(const Output *output, const Interface *interface, const PetscBool there[], const PetscBool met[], cJSON *root,
-                                  cJSON *sentences)
+/* All pairs in the order of their bodies. */
+static PetscErrorCode tell_pairs(const Mesh *mesh, const ContactPart *part, const SkinFacets *facets, const SkinNode nodes[], cJSON *touching,
+                                 cJSON *sentences)
 {
-  const Mesh *mesh = output->mesh;
-  PetscReal  *force;
-  cJSON      *forces = cJSON_AddObjectToObject(root, "forces");
+  Between *between;
+  PetscInt n, *seen;
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(3 * mesh->n_bodies, &force));
+  PetscCall(find_pairs(part, facets, &n, &between));
+  PetscCall(PetscMalloc1(part->n1, &seen));
+  for (PetscInt a = 0; a < part->n1; a++)
+    seen[a] = -1;
+  for (PetscInt first = 0, end; first < n; first = end) {
+    Touching one;
+    for (end = first; end < n && between[end].pair[0] == between[first].pair[0] && between[end].pair[1] == between[first].pair[1];)
+      end++;
+    one = look_at_pair(part, facets, end - first, between + first, nodes, first, seen);
+    tell_pair(mesh->bodies, between[first].pair, &one, touching, sentences);
+  }
+  PetscCall(PetscFree(between));
+  PetscCall(PetscFree(seen));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The force of contact on each body, 3 each, of all ranks; to be freed. */
+static PetscErrorCode sum_forces(const Mesh *mesh, const Interface *interface, PetscReal **force)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(3 * mesh->n_bodies, force));
   for (PetscInt a = 0; a < interface->n1; a++) {
     PetscReal nodal[3];
     contact_vector(interface->dimension, interface->forces, a, nodal);
     for (int i = 0; i < 3; i++)
-      force[3 * mesh_body_of(mesh, interface->nodes[a]) + i] -= nodal[i];
+      (*force)[3 * mesh_body_of(mesh, interface->nodes[a]) + i] -= nodal[i];
   }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, *force, (PetscMPIInt)(3 * mesh->n_bodies), MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void tell_bodies(const Mesh *mesh, const PetscReal force[], const PetscBool there[], const PetscBool met[], cJSON *root,
+                        cJSON *sentences)
+{
+  cJSON *forces = cJSON_AddObjectToObject(root, "forces");
   for (PetscInt b = 0; b < mesh->n_bodies; b++) {
     const PetscReal *f = force + 3 * b;
     if (!there[b]) say(sentences, "%s is no part of it.", mesh->bodies[b].name);
@@ -112,8 +160,6 @@ static PetscErrorCode tell_bodies(const Output *output, const Interface *interfa
     else if (f[0] != 0 || f[1] != 0 || f[2] != 0)
       say(sentences, "The force of contact on %s is (%.6g, %.6g, %.6g).", mesh->bodies[b].name, (double)f[0], (double)f[1], (double)f[2]);
   }
-  PetscCall(PetscFree(force));
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static void tell_left_out(const Mesh *mesh, const Skin *skin, const stickslip_skin_summary *found, cJSON *sentences)
@@ -135,40 +181,33 @@ static void tell_left_out(const Mesh *mesh, const Skin *skin, const stickslip_sk
     say(sentences, "Facets have met out of reach, and the step was solved again, %d time%s.", (int)found->missed, plural(found->missed));
 }
 
-static PetscErrorCode report(const Output *output, const Interface *interface, cJSON *root)
+/* By the rank that has the skin. */
+static PetscErrorCode report(const Mesh *mesh, const Interface *interface, const SkinNode nodes[], const PetscReal force[], cJSON *root)
 {
-  const Mesh            *mesh  = output->mesh;
+  const ContactPart     *part  = &interface->part;
   stickslip_skin_summary found = {.struct_size = sizeof(found)};
   cJSON                 *sentences, *touching;
   PetscBool             *there, *met;
   SkinFacets             facets;
   PetscFunctionBegin;
-  PetscCallStickslip(stickslip_skin_report(interface->part.skin->handle, &found));
-  PetscCall(skin_facets(&interface->part, &facets));
+  PetscCallStickslip(stickslip_skin_report(part->skin->handle, &found));
+  PetscCall(skin_facets(part, &facets));
   PetscCall(PetscCalloc2(mesh->n_bodies, &there, mesh->n_bodies, &met));
-  find_bodies(&facets, interface->part.n_facets[0], there, met);
+  find_bodies(&facets, part->n_facets[0], there, met);
   cJSON_AddNumberToObject(root, "pieces", (double)found.pieces);
   cJSON_AddNumberToObject(root, "pairs", (double)found.pairs);
   cJSON_AddNumberToObject(root, "contradictions", (double)found.contradictions);
   cJSON_AddNumberToObject(root, "made", (double)found.made);
   cJSON_AddNumberToObject(root, "exchanged", (double)found.exchanged);
   cJSON_AddNumberToObject(root, "missed", (double)found.missed);
-  cJSON_AddNumberToObject(root, "facets", interface->part.n_facets[0]);
+  cJSON_AddNumberToObject(root, "facets", part->n_facets[0]);
   cJSON_AddNumberToObject(root, "facets_left_out", interface->skin->n_left);
   touching  = cJSON_AddArrayToObject(root, "touching");
   sentences = cJSON_AddArrayToObject(root, "report");
   say(sentences, "General contact of %d bod%s: %d pair%s of facets may touch in this step, in %d piece%s.", (int)found.bodies,
       found.bodies == 1 ? "y" : "ies", (int)found.pairs, plural(found.pairs), (int)found.pieces, plural(found.pieces));
-  for (PetscInt a = 0; a < mesh->n_bodies; a++) {
-    for (PetscInt b = a; b < mesh->n_bodies && met[a]; b++) {
-      const PetscInt pair[2] = {a, b};
-      Touching       one;
-      if (!met[b]) continue;
-      PetscCall(look_at_pair(interface, &facets, pair, &one));
-      if (one.facets) tell_pair(mesh->bodies, pair, &one, touching, sentences);
-    }
-  }
-  PetscCall(tell_bodies(output, interface, there, met, root, sentences));
+  PetscCall(tell_pairs(mesh, part, &facets, nodes, touching, sentences));
+  tell_bodies(mesh, force, there, met, root, sentences);
   tell_left_out(mesh, interface->skin, &found, sentences);
   PetscCall(PetscFree2(there, met));
   PetscCall(skin_facets_destroy(&facets));
@@ -180,20 +219,37 @@ static const char KEY[] = "general_contact";
 /* At the state that has been collected. */
 PetscErrorCode skin_report(const Output *output, cJSON *root)
 {
+  const Mesh *mesh = output->mesh;
   PetscFunctionBegin;
   cJSON_DeleteItemFromObject(root, KEY); /* of an attempt that did not count */
   for (PetscInt i = 0; i < output->contact->n_interfaces; i++) {
-    if (output->contact->interfaces[i].part.skin) PetscCall(report(output, &output->contact->interfaces[i], cJSON_AddObjectToObject(root, KEY)));
+    const Interface *interface = &output->contact->interfaces[i];
+    SkinNode        *nodes;
+    PetscReal       *force;
+    if (!interface->skin) continue;
+    PetscCall(skin_nodes(interface, &nodes));
+    PetscCall(sum_forces(mesh, interface, &force));
+    if (interface->part.skin) PetscCall(report(mesh, interface, nodes, force, cJSON_AddObjectToObject(root, KEY)));
+    PetscCall(PetscFree(nodes));
+    PetscCall(PetscFree(force));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* So many sentences are printed. */
+enum { PRINTED = 60 };
+
 PetscErrorCode skin_report_tell(const Output *output, const cJSON *root)
 {
-  const cJSON *sentence;
+  const cJSON *sentences = cJSON_GetObjectItem(cJSON_GetObjectItem(root, KEY), "report"), *sentence;
+  const int    n         = cJSON_GetArraySize(sentences);
+  int          printed   = 0;
   PetscFunctionBegin;
   if (output->quiet) PetscFunctionReturn(PETSC_SUCCESS);
-  cJSON_ArrayForEach(sentence, cJSON_GetObjectItem(cJSON_GetObjectItem(root, KEY), "report"))
-      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n", cJSON_GetStringValue(sentence)));
+  cJSON_ArrayForEach(sentence, sentences)
+  {
+    if (printed++ < PRINTED) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n", cJSON_GetStringValue(sentence)));
+  }
+  if (n > PRINTED) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "Of general contact %d more sentences are in summary.json.\n", n - PRINTED));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -53,29 +53,23 @@ static void write_facets(FILE *file, const Mesh *mesh, PetscInt n, const SkinFac
   vtu_end_array(file);
 }
 
-static void write_nodes(FILE *file, const Interface *interface)
+static void write_nodes(FILE *file, PetscInt n, const SkinNode nodes[])
 {
-  const ContactPart   *part   = &interface->part;
-  const ContactStates *states = &interface->states;
   vtu_start_array(file, "Int32", "state", 1);
-  for (PetscInt a = 0; a < part->n1; a++)
-    fprintf(file, "%d\n", (int)states->state[part->nodes[a]]);
+  for (PetscInt a = 0; a < n; a++)
+    fprintf(file, "%d\n", (int)nodes[a].state);
   vtu_end_array(file);
   vtu_start_array(file, "Float64", "pressure", 1);
-  for (PetscInt a = 0; a < part->n1; a++) {
-    const double *lambda = states->multiplier + 3 * part->nodes[a], *n = states->normal + 3 * part->nodes[a];
-    fprintf(file, "%.17g\n", -(lambda[0] * n[0] + lambda[1] * n[1] + lambda[2] * n[2]));
-  }
+  for (PetscInt a = 0; a < n; a++)
+    fprintf(file, "%.17g\n", skin_pressure(&nodes[a]));
   vtu_end_array(file);
   vtu_start_array(file, "Float64", "gap", 1); /* of what can touch nothing there is none */
-  for (PetscInt a = 0; a < part->n1; a++) {
-    const PetscInt home = part->nodes[a];
-    fprintf(file, "%.17g\n", states->coverage[home] > 0 ? states->gap[home] / states->coverage[home] : (double)NAN);
-  }
+  for (PetscInt a = 0; a < n; a++)
+    fprintf(file, "%.17g\n", nodes[a].coverage > 0 ? nodes[a].gap / nodes[a].coverage : (double)NAN);
   vtu_end_array(file);
 }
 
-static PetscErrorCode write_skin(const Output *output, const Interface *interface, PetscInt step)
+static PetscErrorCode write_skin(const Output *output, const Interface *interface, const SkinNode nodes[], PetscInt step)
 {
   const ContactPart *part = &interface->part;
   char               path[PETSC_MAX_PATH_LEN];
@@ -87,7 +81,7 @@ static PetscErrorCode write_skin(const Output *output, const Interface *interfac
   PetscCall(PetscMalloc2(3 * part->n1, &X, 3 * part->n1, &u));
   for (PetscInt a = 0; a < part->n1; a++) {
     contact_vector(part->dimension, part->X, a, X + 3 * a);
-    contact_vector(part->dimension, interface->displacements, part->nodes[a], u + 3 * a);
+    PetscCall(PetscArraycpy(u + 3 * a, nodes[a].displacement, 3));
   }
   PetscCall(PetscSNPrintf(path, sizeof(path), "%s/skin_%" PetscInt_FMT ".vtu", output->directory, step));
   file = fopen(path, "w");
@@ -101,7 +95,7 @@ static PetscErrorCode write_skin(const Output *output, const Interface *interfac
   write_faces(file, part);
   fprintf(file, "</Cells>\n<PointData Vectors=\"displacement\">\n");
   vtu_vectors(file, "displacement", part->n1, u);
-  write_nodes(file, interface);
+  write_nodes(file, part->n1, nodes);
   fprintf(file, "</PointData>\n<CellData>\n");
   write_facets(file, output->mesh, part->n_facets[0], &facets);
   fprintf(file, "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
@@ -111,11 +105,17 @@ static PetscErrorCode write_skin(const Output *output, const Interface *interfac
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* By the rank that has the skin. */
 PetscErrorCode vtu_skin(const Output *output, PetscInt step)
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < output->contact->n_interfaces; i++) {
-    if (output->contact->interfaces[i].part.skin) PetscCall(write_skin(output, &output->contact->interfaces[i], step));
+    const Interface *interface = &output->contact->interfaces[i];
+    SkinNode        *nodes;
+    if (!interface->skin) continue;
+    PetscCall(skin_nodes(interface, &nodes));
+    if (interface->part.skin) PetscCall(write_skin(output, interface, nodes, step));
+    PetscCall(PetscFree(nodes));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

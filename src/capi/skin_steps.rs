@@ -228,7 +228,7 @@ pub unsafe extern "C" fn stickslip_skin_facets(skin: *mut stickslip_skin, out: *
         raw::check_optional(out.body, "stickslip_skin_sides.body")?;
         let (whole, pieces) = (h.inner.whole(), h.inner.piece_of_facets()?);
         let mut nearest = memory::filled((-1_i64, 0.0_f64), whole.facets())?;
-        for pair in h.inner.near() {
+        for pair in h.inner.near().iter().filter(|pair| !pair.under) {
             let [f, g] = pair.facets;
             for (own, other) in [(f, g), (g, f)] {
                 if nearest[own].0 < 0 || pair.distance < nearest[own].1 {

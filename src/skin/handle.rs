@@ -189,7 +189,7 @@ impl Skin {
 
     /// The pairs of facets that may touch where the host's nodes are at `x`, after a step with this motion.
     pub(super) fn look(&self, x: &[Vec3], motion: f64) -> Result<Vec<Near>> {
-        let reach = self.rules.options.search_distance.map_or(Reach::Motion(motion), Reach::Given);
+        let reach = Reach { given: self.rules.options.search_distance, motion };
         near(&self.whole, &self.whole.places(x)?, reach, &self.rules.table)
     }
 

@@ -20,6 +20,11 @@ const LEAST_REACH: f64 = 0.5;
 /// And how far beyond that, over the largest motion of the last step: a step may be as large again.
 pub const MOTIONS: f64 = 2.0;
 
+/// Facets lie along each other if their normals oppose at least so much: planes behind each other beside a corner do not.
+pub const PARALLEL: f64 = -0.8;
+/// Faces over each other whose heights differ by less than this, over a facet's longest edge, are one to a facet over both of them.
+const STEP: f64 = 0.05;
+
 /// Two facets that may touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Near {
@@ -29,17 +34,19 @@ pub struct Near {
     pub distance: f64,
     /// Scalar product of their normals.
     pub opposition: f64,
-    /// How far their centres lie beside each other, over half of both sizes.
+    /// How far their centres lie beside each other, over how far both reach that way.
     pub beside: f64,
+    /// One of them lies under a face that is nearer to the other: it cannot be touched yet.
+    pub under: bool,
 }
 
 /// How far a skin looks for partners.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Reach {
-    /// As far as the host says `[L]`.
-    Given(f64),
-    /// By the facets' sizes and the largest motion of a step `[L]`.
-    Motion(f64),
+pub struct Reach {
+    /// As far as the host says `[L]`; `None`: by the facets' sizes, too.
+    pub given: Option<f64>,
+    /// The largest motion of a step `[L]`.
+    pub motion: f64,
 }
 
 /// The facets of a skin where they are.
@@ -74,10 +81,16 @@ impl Seen {
         (PART_OF_WALL * self.walls[f]).min(DEEPEST * self.sizes[f])
     }
 
+    /// The least way of a facet's points along a vector, from the centre of another one.
+    #[inline(never)]
+    fn least(&self, f: usize, from: usize, along: &Vec3) -> f64 {
+        let way = |p: &Vec3| along.dot(&(p - self.centres[from]));
+        self.facets[f].points().iter().map(way).fold(f64::INFINITY, f64::min)
+    }
+
     /// The least height of a facet over the plane of another one.
     fn lowest(&self, f: usize, over: usize) -> f64 {
-        let height = |p: &Vec3| self.normals[over].dot(&(p - self.centres[over]));
-        self.facets[f].points().iter().map(height).fold(f64::INFINITY, f64::min)
+        self.least(f, over, &self.normals[over])
     }
 
     /// Two facets, as parts, if they may touch.
@@ -93,18 +106,25 @@ impl Seen {
             return None;
         }
         let along = (self.normals[f] - self.normals[g]).normalize();
-        let (aside, half) = ((between - along * along.dot(&between)).norm(), 0.5 * (self.sizes[f] + self.sizes[g]));
-        (aside <= half + 0.5 * reach).then_some(Near { facets: [f, g], distance, opposition, beside: aside / half })
+        let across = between - along * along.dot(&between);
+        // How far both reach towards each other: long facets far along themselves, and not across.
+        let (aside, half) = (across.norm(), -self.least(f, f, &-across) - self.least(g, g, &across));
+        let beside = if aside > 0.0 { aside * aside / half } else { 0.0 };
+        (aside * aside <= half + 0.5 * reach * aside).then_some(Near {
+            facets: [f, g],
+            distance,
+            opposition,
+            beside,
+            under: false,
+        })
     }
 }
 
 /// The pairs of facets that may touch where the copies are at `x`, sorted by the facets of the host. O(n log n).
 pub fn near(whole: &Whole, x: &[Vec3], reach: Reach, table: &Table) -> Result<Vec<Near>> {
     let seen = Seen::new(whole, x)?;
-    let reach = |f: usize| match reach {
-        Reach::Given(reach) => reach,
-        Reach::Motion(motion) => LEAST_REACH * seen.sizes[f] + MOTIONS * motion,
-    };
+    let Reach { given, motion } = reach;
+    let reach = |f: usize| given.unwrap_or(LEAST_REACH * seen.sizes[f] + MOTIONS * motion);
     let boxes = seen.facets.iter().map(|facet| Aabb::around(facet.points().iter().copied())).stored()?;
     let tree = Tree::parted(boxes, &seen.normals)?;
     let normals: Vec<_> = seen.normals.iter().map(|n| Aabb::around([*n])).stored()?;
@@ -138,7 +158,8 @@ pub fn near(whole: &Whole, x: &[Vec3], reach: Reach, table: &Table) -> Result<Ve
     let by_facets = |p: &Near, q: &Near| p.facets.cmp(&q.facets);
     parts = memory::sorted(&parts, by_facets)?;
     parts.dedup_by(|p, q| p.facets == q.facets);
-    let seen_by_all = visible(&seen, &parts)?;
+    let mut seen_by_all = visible(&seen, &parts)?;
+    find_under(whole, &seen, motion, &mut seen_by_all)?;
     let of_host = |p: &Near| {
         let [f, g] = p.facets.map(host);
         Near { facets: [f.min(g), f.max(g)], ..*p }
@@ -166,4 +187,36 @@ fn visible(seen: &Seen, pairs: &[Near]) -> Result<Vec<Near>> {
         !is_hidden([f, g], p.distance) && !is_hidden([g, f], p.distance)
     };
     pairs.iter().filter(is_visible).copied().stored()
+}
+
+/// Marks those pairs in which a face lies under another one: that of a table under a sheet that lies on it, seen from what comes down on
+/// both. A weighted gap is a mean over the facets around a node, and at the sheet's border it would be one over both heights. Once the step
+/// that follows may come as near the pair counts.
+fn find_under(whole: &Whole, seen: &Seen, motion: f64, pairs: &mut [Near]) -> Result<()> {
+    // Of each copy how far its nearest partner is, and which.
+    let mut least = memory::filled(f64::INFINITY, whole.copies())?;
+    let mut over = memory::filled(0, whole.copies())?;
+    let face = |f: usize| whole.faces[whole.surface.host_facet(f)];
+    for marks in [false, true] {
+        for pair in &mut *pairs {
+            if pair.opposition >= PARALLEL {
+                continue;
+            }
+            for [f, g] in [pair.facets, [pair.facets[1], pair.facets[0]]] {
+                let step = STEP * seen.sizes[f].min(seen.sizes[g]);
+                for &a in whole.surface.facets[f].as_slice() {
+                    let p = over[a];
+                    if !marks && pair.distance < least[a] {
+                        (least[a], over[a]) = (pair.distance, g);
+                    }
+                    // Lower than the plane of the nearest one, and out of reach.
+                    pair.under |= marks
+                        && pair.distance > least[a].max(0.0) + motion + step
+                        && seen.normals[p].dot(&(seen.centres[p] - seen.centres[g])) > step
+                        && face(p) != face(g);
+                }
+            }
+        }
+    }
+    Ok(())
 }

@@ -114,6 +114,9 @@ pub fn sides(whole: &Whole, near: &[Near], before: &[Role]) -> Result<Sides> {
     let (mut has_role, mut touches) = (memory::filled(false, n)?, memory::filled(false, n)?);
     let size = |f: usize| whole.areas[f].sqrt();
     for pair in near {
+        if pair.under {
+            continue;
+        }
         let [f, g] = pair.facets;
         let close = pair.distance <= TOUCHES * size(f).min(size(g));
         (has_role[f], has_role[g]) = (true, true);
@@ -121,7 +124,7 @@ pub fn sides(whole: &Whole, near: &[Near], before: &[Role]) -> Result<Sides> {
     }
     // What is in contact first: it is in the deepest.
     let order = memory::order(near.len(), &|p, q| near[p].distance.total_cmp(&near[q].distance))?;
-    let contradictions = order.iter().filter(|&&p| !colours.join(near[p].facets, true)).count();
+    let contradictions = order.iter().filter(|&&p| !near[p].under && !colours.join(near[p].facets, true)).count();
     for SharedEdge { facets, .. } in &whole.surface.edges {
         let [f, g] = facets.map(|f| whole.surface.host_facet(f));
         if has_role[f] && has_role[g] {

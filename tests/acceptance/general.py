@@ -1,7 +1,8 @@
 """General contact: `contact: all` names no pairs and no sides, and finds what named pairs would give."""
 
 import numpy as np
-from general_models import BOX, NONE, shipped, strip
+from general_models import BOX, NONE, balls_between_plates, corner, sheet, shipped, strip
+from ranks import compare
 from restart import same_bits
 from scene import write
 
@@ -16,6 +17,11 @@ OTHER_ROLES = 0.01
 UNMATCHED = 0.01
 # Hertz' formulas for half-spaces: balls are as high as they are wide, and pressed by a sixth of their radius.
 HERTZ = 0.2
+# A homogeneous state: rounding of the solver, of displacements of 0.02.
+PATCH = 1e-12
+# Code_Aster's test SSNA102: its references are of other codes, to 4 and 1.6 %; what it gives itself is 3.9 and 1.55 % off, and here the mesh's error
+# comes to it.
+PUBLISHED_SINKS, PUBLISHED_FORCE = 0.04, 0.02
 # What friction leaves of the forces' balance.
 BALANCE = 1e-10
 
@@ -55,6 +61,11 @@ def general(verdicts, driver):
     left_out(cases)
     stack(cases)
     rigid(cases)
+    three_walls(cases)
+    plates_and_balls(cases)
+    thin_sheet(cases)
+    shallow(cases)
+    several_ranks(cases)
     refused(cases)
     same_bits(verdicts, driver, "three blocks, restarted", shipped("three_blocks"), (), lambda n: range(1, n))
 
@@ -219,6 +230,46 @@ def rigid(cases):
     cases.verdicts.below("a rigid roller between plates: reactions against named pairs", apart(*runs), SAME, "the same roles")
 
 
+def three_walls(cases):
+    """A block in a corner of three others: three of its faces touch where they meet, and all is pressed evenly."""
+    for cell in ("hex", "tet", "hex27"):
+        run = cases.run(f"corner_{cell}", corner(cell))
+        X, _, u = run.mesh()
+        exact = -0.02 * (X - X.min(axis=0)) / np.ptp(X, axis=0)
+        cases.verdicts.below(f"a block in a corner of three walls, {cell}: displacements", np.abs(u - exact).max(), PATCH, "even strain")
+
+
+def plates_and_balls(cases):
+    """Code_Aster's SSNA102, one word for its three contacts: how far the lower plate, held at its rim, sinks, and the force of a radian."""
+    run = cases.run("ssna102", balls_between_plates())
+    end = run.steps[-1]
+    cases.verdicts.near("plates and balls: how far the lower plate sinks", end["probes"]["foot"][1], -0.81, PUBLISHED_SINKS, "SSNA102")
+    cases.verdicts.near("plates and balls: force of a radian", end["reactions"]["ground"][1] / (2 * np.pi), 17229.58, PUBLISHED_FORCE, "SSNA102")
+
+
+def thin_sheet(cases):
+    """A sheet on a plate under a block that is larger than it: what lies under the sheet's face is no partner beside it."""
+    whole = cases.run("sheet", sheet({"contact": "all", "friction": 0.3}))
+    named = {"interfaces": ["over", "under"], "over": {"nonmortar": "block.ymin", "mortar": "sheet.ymax", "friction": 0.3},
+             "under": {"nonmortar": "sheet.ymin", "mortar": "plate.ymax", "friction": 0.3}}
+    pairs = cases.run("sheet_named", sheet(named))
+    cases.verdicts.below("a thin sheet between a plate and a block: reactions against named pairs", apart(whole, pairs), OTHER_ROLES, "the mesh's error")
+
+
+def shallow(cases):
+    """Out of reach, and into each other by a fiftieth of a facet: it is noticed in that step."""
+    press = {"surface": "block.ymax", "components": ["x", "y"], "value": [0, -0.302]}
+    runs = [cases.run(f"shallow_{reach}", falling(press=press, all={"search_distance": reach})) for reach in (0.05, 0.5)]
+    forces = [abs(run.steps[-1]["reactions"]["press"][1]) for run in runs]
+    cases.verdicts.near("facets that have met out of reach, hardly in each other", *forces, SAME, "what a large reach gives")
+
+
+def several_ranks(cases):
+    """One rank has the skin; the bodies are on all."""
+    for label, scene in (("stack", corner("hex", friction=0.3, output=NONE)), ("three_blocks", shipped("three_blocks", output=NONE))):
+        compare(cases.verdicts, cases.driver, write(scene, cases.folder / f"ranks_{label}.yaml"), "", (), (2, 3))
+
+
 # A scene of heat that would pass between the bodies.
 WARM = {"heat": {"initial": 20}, "all": {"conductance_constant": 1, "conductance_reach": 1},
         "block": {**falling()["block"], "conductivity": 1}, "base": {**falling()["base"], "conductivity": 1}}
@@ -236,7 +287,6 @@ def refused(cases):
         ("dynamics", falling(dynamics={"rho_inf": 1}), "dynamics", {}),
         ("a key of sides", falling(all={"nonmortar": "block.ymin"}), "nonmortar", {}),
         ("heat", {**falling(), **WARM}, "no heat passes", {}),
-        ("two ranks", falling(), "one rank", {"ranks": 2}),
     ):
         run = cases.run(f"refused_{label.replace(' ', '_')}", scene, expect=1, **more)
         cases.verdicts.true(f"refused: {label}", words in run.text, "the message says why")

@@ -55,3 +55,70 @@ def strip(folder, contact, steps=12):
         **contact,
     }
     return write(scene, folder / f"strip_{'all' if 'contact' in contact and contact['contact'] == 'all' else 'named'}.yaml")
+
+
+def corner(cell, **more):
+    """A block between a floor and two walls, whose meshes do not match; from the other sides all is pressed evenly."""
+    body = lambda lower, upper, cells: {**BOX, "lower": lower, "upper": upper, "cells": cells, "cell": cell}
+    held = lambda surfaces, axis, value=0: {"surface": surfaces, "components": ["xyz"[axis]], "value": [value * (k == axis) for k in range(3)]}
+    return {
+        "schema": 1,
+        "bodies": ["block", "floor", "wall1", "wall2"],
+        "block": body([0, 0, 0], [1, 1, 1], [4, 4, 4]),
+        "floor": body([-0.6, -0.6, -0.5], [1, 1, 0], [5, 5, 2]),
+        "wall1": body([-0.6, -0.6, 0], [0, 1, 1], [2, 5, 3]),
+        "wall2": body([0, -0.6, 0], [1, 0, 1], [3, 2, 5]),
+        "supports": ["back1", "back2", "ground", "press1", "press2", "press3"],
+        "back1": held(["floor.xmin", "wall1.xmin"], 0),
+        "back2": held(["floor.ymin", "wall1.ymin", "wall2.ymin"], 1),
+        "ground": held(["floor.zmin"], 2),
+        "press1": held(["block.xmax", "wall2.xmax", "floor.xmax"], 0, -0.02),
+        "press2": held(["block.ymax", "wall1.ymax", "floor.ymax"], 1, -0.02),
+        "press3": held(["block.zmax", "wall1.zmax", "wall2.zmax"], 2, -0.02),
+        "contact": "all",
+        "steps": {"count": 2},
+        "output": {"vtu": "last", "csv": "none"},
+        **more,
+    }
+
+
+def balls_between_plates():
+    """Code_Aster's SSNA102: two balls of radius 10 and 5 between a plate that is held at its rim and one that is pressed down. Axisymmetric, of small
+    strain, as there."""
+    body = {"type": "box", "young": 200000, "poisson": 0.3, "small_strain": True}
+    return {
+        "schema": 1,
+        "model": "axisymmetric",
+        "bodies": ["base", "low", "high", "press"],
+        "base": {**body, "lower": [0, 0], "upper": [20, 4], "cells": [64, 16]},
+        "low": {**body, "ball": [0, 14], "lower": [0, 4], "upper": [10, 24], "cells": [40, 80]},
+        "high": {**body, "ball": [0, 29], "lower": [0, 24], "upper": [5, 34], "cells": [40, 80]},
+        "press": {**body, "lower": [0, 34], "upper": [10, 36], "cells": [48, 16]},
+        "supports": ["axis", "ground", "push"],
+        "axis": {"surface": ["base.xmin", "low.xmin", "high.xmin", "press.xmin"], "components": ["x"]},
+        "ground": {"surface": "base.xmax", "components": ["x", "y"]},
+        "push": {"surface": "press.ymax", "components": ["y"], "value": [0, -2]},
+        "probes": ["foot"],
+        "foot": {"body": "base", "point": [0, 0]},
+        "contact": "all",
+        "steps": {"count": 4},
+        "output": NONE,
+    }
+
+
+def sheet(contact):
+    """A thin sheet on a plate, and a block over both, pressed down and along; half a facet is between block and plate."""
+    return {
+        "schema": 1,
+        "model": "plane_strain",
+        "bodies": ["plate", "sheet", "block"],
+        "plate": {**BOX, "lower": [0, -0.5], "upper": [2, 0], "cells": [16, 4]},
+        "sheet": {**BOX, "lower": [0.4, 0], "upper": [1.6, 0.07], "cells": [8, 1]},
+        "block": {**BOX, "lower": [0.1, 0.07], "upper": [1.9, 0.6], "cells": [12, 4]},
+        "supports": ["ground", "press"],
+        "ground": {"surface": "plate.ymin", "components": ["x", "y"]},
+        "press": {"surface": "block.ymax", "components": ["x", "y"], "value": [0.01, -0.02]},
+        "steps": {"count": 4},
+        "output": NONE,
+        **contact,
+    }
