@@ -52,15 +52,13 @@ pub fn pieces(whole: &Whole, roles: &[Role], near: &[Near]) -> Result<Vec<Wanted
         let own: Vec<_> = same.iter().map(|&i| own[i]).stored()?;
         marks.start(&own);
         let mut met = Vec::new();
-        for is_under in [false, true] {
-            for &f in &own {
-                for &p in partners.of(f) {
-                    let Near { facets: [first, other], under, .. } = near[p];
-                    let g = if first == f { other } else { first };
-                    // What lies under another face is no room to slide in.
-                    if under == is_under && (under || roles[g] == Role::Mortar) && marks.is_new(g) && !under {
-                        met.store(g)?;
-                    }
+        for &f in &own {
+            for &p in partners.of(f) {
+                let Near { facets: [first, other], under, .. } = near[p];
+                let g = if first == f { other } else { first };
+                // What lies under another face is no room to slide in.
+                if !under && roles[g] == Role::Mortar && marks.is_new(g) {
+                    met.store(g)?;
                 }
             }
         }
