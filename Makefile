@@ -31,7 +31,7 @@ help:
 	@echo "make bench   what the kernels cost, over a C++ baseline and in instructions (FIGURES=1: renew its table)"
 	@echo "make stability  hard cases x severity, each compared with an answer: build/stability/index.html; can be resumed;"
 	@echo "             QUICK=1: the part that is among the tests; ONLY='FILE ...' of tests/stability/cases; BASIS=dual;"
-	@echo "             NORMALS=current; FIGURES=1: as above"
+	@echo "             NORMALS=current; RANKS=2; FIGURES=1: as above"
 	@echo "make check   the quick part of it, two minutes once built: format, lints, Rust tests, a few scenes"
 	@echo "make test    tests and checks, the same in every run; make test-long has the rest"
 	@echo "make test-long  those that take too long for it; .ci/run runs both"
@@ -192,7 +192,7 @@ stability:
 	@$(MAKE) --no-print-directory cmake-build
 	$(SAY) "The stability matrix"
 	@$(PYTHON) tests/stability/run.py --build $(BUILD) --jobs $(JOBS) $(if $(QUICK),--quick) $(if $(ONLY),--only $(ONLY)) \
-		$(if $(BASIS),--basis $(BASIS)) $(if $(NORMALS),--normals $(NORMALS)) $(if $(FIGURES),--renew-figures)
+		$(if $(BASIS),--basis $(BASIS)) $(if $(NORMALS),--normals $(NORMALS)) $(if $(RANKS),--ranks $(RANKS)) $(if $(FIGURES),--renew-figures)
 
 # Long enough for the targets to come to rest; see fuzz/README.md.
 FUZZ_SECONDS ?= 900

@@ -15,12 +15,15 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "studies" / "common
 import folders  # noqa: E402, F401  (needs the path; puts the others on it)
 from scene import SCENES, Driver, SceneError, interfaces, weights, write  # noqa: E402  (needs the path)
 
+# The variable of the environment that says on how many ranks the driver runs.
+RANKS = "STABILITY_RANKS"
+
 CONVERGED, BAD_SCENE, NOT_CONVERGED, REFUSED = range(4)  # exit codes of the driver
 
 
 def matrix_folder():
-    """Of the matrix with these multipliers and these normals."""
-    return "_".join(["stability", *(os.environ[name] for name in (BASIS, NORMALS) if name in os.environ)])
+    """Of the matrix with these multipliers and normals, on so many ranks."""
+    return "_".join(["stability", *(os.environ[name] for name in (BASIS, NORMALS, RANKS) if name in os.environ)])
 
 
 def in_question(path, options):
@@ -73,7 +76,7 @@ class Context:
             self.folder.mkdir(parents=True, exist_ok=True)
             matrix.unlink(missing_ok=True)
             options += ("-ksp_view_mat", f"binary:{matrix}")
-        run = Driver(self.build, self.folder).run(path, *options, label=name, expect=None)
+        run = Driver(self.build, self.folder).run(path, *options, label=name, expect=None, ranks=int(os.environ.get(RANKS, 1)))
         run.kappa = None
         if kappa and matrix.is_file():
             run.kappa = condition.of(condition.read(matrix))

@@ -1,7 +1,7 @@
 """The stability matrix: hard cases x severity, every cell a run that is compared with an exact or refined answer.
 
 run.py --build DIR [--jobs N] [--quick] [--only FILE...] [--kind KIND] [--basis BASIS]
-       [--normals NORMALS] [--again] [--renew-figures]
+       [--normals NORMALS] [--ranks N] [--again] [--renew-figures]
 
 Each cell runs in a process of its own, so that a crash or a hang is that cell's verdict and no end of the matrix.
 What it found goes to DIR/stability/cells/CELL.json; one that is newer than the programs and than the sources of its
@@ -28,7 +28,7 @@ sys.path.insert(0, str(HERE))
 import cell as cells  # noqa: E402
 import must_hold  # noqa: E402
 import report  # noqa: E402
-from host import Context, matrix_folder  # noqa: E402
+from host import RANKS, Context, matrix_folder  # noqa: E402
 from library import BASES, BASIS, NORMALS, NORMALS_OF  # noqa: E402
 
 # A cell that takes longer hangs: the slowest takes some two minutes alone.
@@ -164,6 +164,7 @@ def main():
     )
     parser.add_argument("--basis", choices=BASES, help="of the multipliers, where a cell says nothing, for the library's choice; a report of its own")
     parser.add_argument("--normals", choices=NORMALS_OF, help="the same of the normals, where weights are not frozen")
+    parser.add_argument("--ranks", type=int, help="of the driver, where they are not 1: cells of single calls are left out; a report of its own")
     parser.add_argument("--again", action="store_true", help="keep nothing")
     parser.add_argument("--renew-figures", action="store_true", help="renew the committed figures too; all cells only")
     arguments = parser.parse_args()
@@ -171,6 +172,9 @@ def main():
         os.environ[BASIS] = arguments.basis
     if arguments.normals:
         os.environ[NORMALS] = arguments.normals
+    if arguments.ranks:
+        os.environ[RANKS] = str(arguments.ranks)
+        arguments.kind = cells.SCENE
     if arguments.renew_figures and (arguments.quick or arguments.only or arguments.kind):
         parser.error("--renew-figures wants the whole matrix")
 
