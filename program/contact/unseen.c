@@ -17,9 +17,6 @@ static const PetscReal OVERLAP_MOST = 0.1;
 static const PetscReal ROUNDED = 1e-12;
 /* A lag that is told, of a node over the largest traction or of all nodes over their force; with which no step counts is `lag_max`. */
 static const PetscReal LAG_TOLD = 0.01;
-/* One node in contact is no news of a surface of so few. */
-enum { LONELY_OF = 4 };
-
 /* The step that follows aims below what is allowed by so much: turns are even, what slips is not. */
 static const PetscReal LAG_MARGIN = 1.3;
 
@@ -119,35 +116,6 @@ PetscErrorCode unseen_accept(Contact *contact)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* All that is closed at the end is one node, or, where points decide, less than a node has: the contact is smaller than the facets around it, and its
- * force is that of a pyramid. A disc between two others pressed 32 per cent too hard so, at points half as hard as it should, at no overlap that a
- * node would show. */
-static PetscErrorCode tell_lonely(const Interface *interface, const Mesh *mesh)
-{
-  const ContactStates *states   = &interface->states;
-  const PetscBool      points   = decision_is_points(interface);
-  PetscReal            sums[3]  = {0, 0, interface->n1}, most = 0, where[4] = {0}; /* closed: nodes, area; the node that is most: place, area */
-  PetscFunctionBegin;
-  for (PetscInt a = 0; a < interface->n1; a++) {
-    const PetscReal closed = states->closed[a] * states->coverage[a];
-    if (states->state[a] == STICKSLIP_STATE_GAP) continue;
-    sums[0]++;
-    sums[1] += closed;
-    if (closed <= most) continue;
-    contact_vector(interface->dimension, interface->X, a, where);
-    where[3] = states->area[a];
-    most     = closed;
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
-  PetscCall(contact_largest(mesh, &most, sizeof(where), where));
-  if (sums[2] <= LONELY_OF || !(points ? sums[1] > 0 && sums[1] < where[3] : sums[0] == 1)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
-                         "stickslip: warning: all that %s carries at the end is %s one node, at (%g, %g, %g) in the undeformed body: the contact is smaller "
-                         "than its facets, and its force may be off by tens of per cent. Take facets so fine that several lie in the contact.\n",
-                         interface->name, points ? "less than the area of" : "at", (double)where[0], (double)where[1], (double)where[2]));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* The run has come to its end. */
 PetscErrorCode unseen_end(const Contact *contact)
 {
@@ -156,7 +124,7 @@ PetscErrorCode unseen_end(const Contact *contact)
     const Interface *interface = &contact->interfaces[i];
     if (interface->options.friction == STICKSLIP_FRICTION_TIED) continue;
     if (interface->largest_traction > 0) {
-      PetscCall(tell_lonely(interface, contact->mesh));
+      PetscCall(lonely_tell(interface, contact->mesh));
       continue;
     }
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
