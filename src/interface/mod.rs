@@ -63,6 +63,7 @@ pub use inspect::report::{Cover, NodeCover, Report};
 pub use inspect::why::Finding;
 pub use linear::{PlanOf, PlanPairs};
 pub(crate) use pairing::boxes::Aabb;
+pub(crate) use pairing::corners::FACETS as CLOSE;
 pub(crate) use pairing::search::Tree;
 pub(crate) use pairing::walls::backs;
 pub use plan::pattern::System as PlanSystem;

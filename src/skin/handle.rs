@@ -8,7 +8,7 @@ use super::table::{Between, Table};
 use super::whole::{Given, Whole};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
-use crate::interface::{Decision, Friction, MortarSide, NO_EQUATION, Options, free_directions};
+use crate::interface::{CLOSE, Decision, Friction, MortarSide, NO_EQUATION, Options, free_directions};
 use crate::memory::{self, Store, Stored};
 
 /// What has happened to a skin since it was created.
@@ -234,9 +234,15 @@ pub(super) fn friction_of(
     (sides, near): (&Sides, &[Near]),
     all: &[&Held],
 ) -> Result<Vec<Option<[Vec<f64>; 2]>>> {
+    // A copy far from anything is not taken to close within the step, as within a piece.
+    let mut is_close = memory::filled(false, whole.copies())?;
+    for Near { facets: [f, g], distance, .. } in near {
+        let close = *distance <= CLOSE * whole.areas[*f].min(whole.areas[*g]).sqrt();
+        [f, g].into_iter().for_each(|&f| whole.surface.host_nodes(f).iter().for_each(|&a| is_close[a] |= close));
+    }
     let (mut claims, mut last) = (memory::filled(0_u32, whole.nodes)?, memory::filled(usize::MAX, whole.nodes)?);
     for (p, held) in all.iter().enumerate() {
-        for (&a, _) in held.copies[0].iter().zip(&held.has_multiplier).filter(|(_, has)| **has) {
+        for (&a, _) in held.copies[0].iter().zip(&held.has_multiplier).filter(|(a, has)| **has && is_close[**a]) {
             let node = whole.originals[a];
             claims[node] += u32::from(last[node] != p);
             last[node] = p;

@@ -105,7 +105,7 @@ impl Held {
     }
 
     /// Friction by the bodies that its nodes are between, twice for [`Held::take_friction`]; `None`: it is as before. `near`: the
-    /// pairs of now; `claims`: how many copies of each node of the host have multipliers.
+    /// pairs of now; `claims`: in how many pieces a node of the host has a multiplier, and a partner that is close.
     pub fn friction(
         &self,
         whole: &Whole,

@@ -57,6 +57,7 @@ def general(verdicts, driver):
     folded_strip(cases)
     ring(cases)
     balls(cases)
+    keys(cases)
     far(cases)
     left_out(cases)
     stack(cases)
@@ -133,6 +134,16 @@ def ring(cases):
     turned = cases.run("ring_turned", {**scene, "ring": {**scene["ring"], "lower": [0.7, 1.3], "upper": [1, 361.3]}})
     cases.verdicts.near("ring: the same, walls that do not match", abs(turned.steps[-1]["reactions"]["press"][1]), force[1], UNMATCHED, "the mesh's error")
     cases.touching("ring", whole, ("ring", "ring"), ("ring", "lower"), ("ring", "upper"))
+
+
+def keys(cases):
+    """Pressed across their whole gap in one step. The edges of their feet are edges of sides, too, which the next key's are near."""
+    scene = shipped("keys", output=NONE, steps={"end": 2, "count": 2})
+    named = cases.run("keys_named", scene)
+    names = ("interfaces", *scene["interfaces"])
+    whole = cases.run("keys", {key: value for key, value in scene.items() if key not in names} | {"contact": "all", "friction": 0.3})
+    cases.verdicts.below("keys: all reactions against named pairs", apart(whole, named), SAME, "the same roles")
+    cases.verdicts.below("keys: cut-backs", whole.summary["cutbacks"], 0, "what was out of reach is looked for, and the same step solved again")
 
 
 def balls(cases):

@@ -20,7 +20,7 @@ use crate::normal::SMALLEST_SUM;
 
 /// A copy that is farther open than so many facets at t_n is not taken to close within the step: where the sides of an edge lean over the
 /// other surface by 40 degrees it is open by 0.4.
-const FACETS: f64 = 0.2;
+pub const FACETS: f64 = 0.2;
 /// cos 20 degrees: a side lies on a face that it encloses no larger angle with. Of two sides that differ by the angle from which on the
 /// driver splits, 40 degrees, not more than one does.
 const LIES_ON: f64 = 0.939_692_620_785_908_4;
