@@ -93,7 +93,8 @@ def difference(run, other, interface=INTERFACE, length=1.0, force=1.0):
 
     def fields(run):
         table = run.interface(interface)
-        vectors = lambda *names: np.stack([table[name] for name in names], axis=1)
+        order = np.lexsort([table[name] for name in "ZYX"])  # on several ranks nodes come in any
+        vectors = lambda *names: np.stack([table[name] for name in names], axis=1)[order]
         probes = np.reshape(list(run.steps[-1]["probes"].values()), (-1, 3))
         return np.concatenate([vectors("ux", "uy", "uz"), probes]), vectors("fx", "fy", "fz")
 
