@@ -45,6 +45,8 @@ def scene(friction, law="coulomb", drawn=DRAWN):
         "draw": {"surface": "upper.zmax", "components": ["x", "y"], "value": [drawn, 0, 0], "curve": [1, 0, 2, 1]},
         "interfaces": ["base"],
         "base": base | ({"friction": float(friction)} if law == "coulomb" else {}),
+        "probes": ["top"],  # where the feet are stuck on what does not move, displacements there are rounding
+        "top": {"body": "upper", "point": [0, 0, 1]},
         "steps": {"end": 2, "count": 10},
         "output": {"vtu": "none", "csv": "last"},
     }
