@@ -3,6 +3,10 @@
  * as hard as it should. Nothing is wrong with such a scene but its mesh, so that it is told. */
 #include "contact/contact.h"
 
+/* Nodes that are too few, in the plane and in space: of a facet, of a node and its neighbours. A circle and a ball on two and five press some 10 per cent
+ * too hard. */
+static PetscInt few(const Interface *interface) { return interface->dimension == 2 ? 2 : 5; }
+
 /* What is closed. */
 typedef struct {
   PetscReal nodes, area, of;     /* their number, their area, all nodes */
@@ -72,12 +76,11 @@ static PetscErrorCode shortest_mortar(const Interface *interface, const Mesh *me
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Told where what is closed are the nodes of one facet, not all there are, or, where points decide, less than a node has, or lies within any mortar
+/* Told where what is closed are few nodes, not all there are, or, where points decide, less than a node has, or lies within any mortar
  * facet. */
 PetscErrorCode lonely_tell(const Interface *interface, const Mesh *mesh)
 {
   const PetscBool points = decision_is_points(interface);
-  const PetscInt  facet  = interface->dimension == 2 ? 2 : 4;
   Closed          closed;
   PetscReal       mortar;
   char            where[96];
@@ -87,7 +90,7 @@ PetscErrorCode lonely_tell(const Interface *interface, const Mesh *mesh)
   if (closed.nodes == 0 || closed.nodes == closed.of) PetscFunctionReturn(PETSC_SUCCESS);
   if (points && closed.area < closed.most[3]) PetscCall(PetscSNPrintf(where, sizeof(where), "is less than the area of one node"));
   else if (!points && closed.nodes == 1) PetscCall(PetscSNPrintf(where, sizeof(where), "is at one node"));
-  else if (!points && closed.nodes <= facet) PetscCall(PetscSNPrintf(where, sizeof(where), "is at %d nodes", (int)closed.nodes));
+  else if (!points && closed.nodes <= few(interface)) PetscCall(PetscSNPrintf(where, sizeof(where), "is at %d nodes", (int)closed.nodes));
   else if (distance(closed.low, closed.high) < mortar)
     PetscCall(PetscSNPrintf(where, sizeof(where), "is %.2g wide, less than any mortar facet", (double)distance(closed.low, closed.high)));
   else PetscFunctionReturn(PETSC_SUCCESS);
