@@ -154,7 +154,10 @@ PetscErrorCode slide_find(const Interface *interface, const Mesh *mesh, double f
 PetscErrorCode unseen_check(Contact *contact, PetscBool last, PetscBool *late, PetscReal *ratio, char why[], size_t length);
 PetscErrorCode unseen_accept(Contact *contact);
 PetscErrorCode unseen_end(const Contact *contact);
+/* slopes.c */
+PetscErrorCode slopes_tell(const Contact *contact, const Interface *interface);
 /* lonely.c */
+PetscInt       lonely_few(PetscInt dimension);
 PetscErrorCode lonely_tell(const Interface *interface, const Mesh *mesh);
 /* lag.c: a converged step is solved again with the normals that it has reached */
 PetscErrorCode lag_shows(const Contact *contact, PetscBool *shows);

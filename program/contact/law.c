@@ -54,6 +54,8 @@ void law_read(Scene *scene, const Space *space, Interface *interface)
   scene_real(scene, name, "shear_limit", &shear_limit);
   if (law == STICKSLIP_FRICTION_TRESCA && shear_limit <= 0)
     scene_fail(scene, name, "shear_limit", "the law 'tresca' needs its largest shear traction, above 0.");
+  if (law == STICKSLIP_FRICTION_TRESCA && mu == 0)
+    scene_fail(scene, name, "friction", "the law 'tresca' is friction up to `shear_limit`; without a coefficient above 0 nothing ever comes to it.");
   if (law != STICKSLIP_FRICTION_TRESCA && shear_limit != 0)
     scene_fail(scene, name, "shear_limit", "the law '%s' has no such limit; 'tresca' has.", LAWS[law]);
   if (kind == STICKSLIP_LAW_ORTHOTROPIC && mu == 0)

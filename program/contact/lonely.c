@@ -5,7 +5,7 @@
 
 /* Nodes that are too few, in the plane and in space: of a facet, of a node and its neighbours. A circle and a ball on two and five press some 10 per cent
  * too hard. */
-static PetscInt few(const Interface *interface) { return interface->dimension == 2 ? 2 : 5; }
+PetscInt lonely_few(PetscInt dimension) { return dimension == 2 ? 2 : 5; }
 
 /* What is closed. */
 typedef struct {
@@ -90,13 +90,14 @@ PetscErrorCode lonely_tell(const Interface *interface, const Mesh *mesh)
   if (closed.nodes == 0 || closed.nodes == closed.of) PetscFunctionReturn(PETSC_SUCCESS);
   if (points && closed.area < closed.most[3]) PetscCall(PetscSNPrintf(where, sizeof(where), "is less than the area of one node"));
   else if (!points && closed.nodes == 1) PetscCall(PetscSNPrintf(where, sizeof(where), "is at one node"));
-  else if (!points && closed.nodes <= few(interface)) PetscCall(PetscSNPrintf(where, sizeof(where), "is at %d nodes", (int)closed.nodes));
+  else if (!points && closed.nodes <= lonely_few(interface->dimension)) PetscCall(PetscSNPrintf(where, sizeof(where), "is at %d nodes", (int)closed.nodes));
   else if (distance(closed.low, closed.high) < mortar)
     PetscCall(PetscSNPrintf(where, sizeof(where), "is %.2g wide, less than any mortar facet", (double)distance(closed.low, closed.high)));
   else PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                          "stickslip: warning: all that %s carries at the end %s, at (%g, %g, %g) in the undeformed body: the contact is smaller "
-                         "than its facets, and its force may be off by tens of per cent. Take facets so fine that several lie in the contact.\n",
+                         "than its facets, and its force may be off by tens of per cent. Take facets so fine that several lie in the contact; where a corner slides on a "
+                         "face, the face's side as `nonmortar`.\n",
                          interface->name, where, (double)closed.most[0], (double)closed.most[1], (double)closed.most[2]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -93,6 +93,8 @@ static PetscErrorCode read_friction(Scene *scene, const Mesh *mesh, Interface *i
     scene_fail(scene, NAME, "law", "what is tied is an interface of its own: list it in `interfaces`, beside `contact: all`.");
   if (law == STICKSLIP_FRICTION_TRESCA && !scene_has(scene, NAME, "shear_limit"))
     scene_fail(scene, NAME, "shear_limit", "this key is missing: the law 'tresca' needs it.");
+  if (law == STICKSLIP_FRICTION_TRESCA && !(skin->rubs > 0))
+    scene_fail(scene, NULL, FRICTION, "the law 'tresca' is friction up to `shear_limit`; without a coefficient above 0 nothing ever comes to it.");
   if (law == STICKSLIP_FRICTION_TRESCA) scene_real(scene, NAME, "shear_limit", &options->shear_limit);
   if (law != STICKSLIP_FRICTION_COULOMB && law != STICKSLIP_FRICTION_TRESCA && skin->rubs > 0)
     scene_fail(scene, NULL, FRICTION, "the law '%s' has no Coulomb coefficient.", laws[law]);

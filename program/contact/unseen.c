@@ -41,6 +41,8 @@ static PetscErrorCode measure(const Contact *contact, Interface *interface)
   PetscCall(slide_find(interface, mesh, e->penetration > 0 ? e->penetration / e->penetration_scale : 0, e->penetration_node, overlap, where));
   PetscCall(slide_find(interface, mesh, e->apart > 0 ? e->apart / e->apart_scale : 0, e->apart_node, apart, there));
   PetscCall(slide_find(interface, mesh, e->lag > 0 ? e->lag / traction : 0, e->lag_node, lag, at));
+  /* What yields overlaps by its law, and the worn surface is not the mesh. */
+  if (interface->layer.n_overclosure || interface->layer.wear > 0) overlap->amount = 0;
   interface->depth = where[3];
   force[0]         = verb_there(&interface->part) ? e->lag_force : 0;
   force[1]         = verb_there(&interface->part) ? e->lag_force_scale : 0; /* 0 with the host's normals */
@@ -125,6 +127,7 @@ PetscErrorCode unseen_end(const Contact *contact)
     if (interface->options.friction == STICKSLIP_FRICTION_TIED) continue;
     if (interface->largest_traction > 0) {
       PetscCall(lonely_tell(interface, contact->mesh));
+      PetscCall(slopes_tell(contact, interface));
       continue;
     }
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,

@@ -9,7 +9,7 @@ enum { SENTENCE = 1024 };
 
 /* Two bodies, or one with itself. */
 typedef struct {
-  PetscInt  facets, nodes, sticks, slips;
+  PetscInt  facets, all, nodes, sticks, slips; /* of all nodes of the facets those that are in contact */
   PetscReal nearest, pressure;
 } Touching;
 
@@ -68,8 +68,10 @@ static Touching look_at_pair(const ContactPart *part, const SkinFacets *facets, 
     found.nearest    = PetscMin(found.nearest, facets->distance[f]);
     for (PetscInt k = part->offsets[0][f]; k < part->offsets[0][f + 1]; k++) {
       const PetscInt a = part->facet_nodes[0][k];
-      if (seen[a] == number || nodes[a].state == STICKSLIP_STATE_GAP || part->middle[a]) continue;
+      if (seen[a] == number || part->middle[a]) continue;
       seen[a] = number;
+      found.all++;
+      if (nodes[a].state == STICKSLIP_STATE_GAP) continue;
       found.nodes++;
       found.sticks += nodes[a].state == STICKSLIP_STATE_STICK;
       found.slips += nodes[a].state == STICKSLIP_STATE_SLIP;
@@ -79,7 +81,10 @@ static Touching look_at_pair(const ContactPart *part, const SkinFacets *facets, 
   return found;
 }
 
-static void tell_pair(const Body bodies[], const PetscInt pair[2], const Touching *found, cJSON *touching, cJSON *sentences)
+/* Of two bodies: what presses between them is smaller than its facets, see contact/lonely.c. */
+static const char LONELY[] = "smaller_than_facets";
+
+static void tell_pair(const Body bodies[], PetscInt dimension, const PetscInt pair[2], const Touching *found, cJSON *touching, cJSON *sentences)
 {
   const char *one = bodies[pair[0]].name, *two = pair[0] == pair[1] ? "itself" : bodies[pair[1]].name;
   char        rest[SENTENCE / 2] = "no node is in contact";
@@ -92,6 +97,7 @@ static void tell_pair(const Body bodies[], const PetscInt pair[2], const Touchin
   cJSON_AddNumberToObject(json, "stick", found->sticks);
   cJSON_AddNumberToObject(json, "slip", found->slips);
   cJSON_AddNumberToObject(json, "pressure", (double)found->pressure);
+  cJSON_AddBoolToObject(json, LONELY, found->nodes && found->nodes <= lonely_few(dimension) && found->nodes < found->all);
   if (found->nodes)
     snprintf(rest, sizeof(rest), "%d node%s in contact, %d stick and %d slip, the largest pressure is %.4g", (int)found->nodes,
              plural(found->nodes), (int)found->sticks, (int)found->slips, (double)found->pressure);
@@ -124,7 +130,7 @@ static PetscErrorCode tell_pairs(const Mesh *mesh, const ContactPart *part, cons
     for (end = first; end < n && between[end].pair[0] == between[first].pair[0] && between[end].pair[1] == between[first].pair[1];)
       end++;
     one = look_at_pair(part, facets, end - first, between + first, nodes, first, seen);
-    tell_pair(mesh->bodies, between[first].pair, &one, touching, sentences);
+    tell_pair(mesh->bodies, part->dimension, between[first].pair, &one, touching, sentences);
   }
   PetscCall(PetscFree(between));
   PetscCall(PetscFree(seen));
@@ -236,8 +242,26 @@ PetscErrorCode skin_report(const Output *output, cJSON *root)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* So many sentences are printed. */
-enum { PRINTED = 60 };
+/* So many sentences are printed, and so many pairs that are warned of. */
+enum { PRINTED = 60, WARNED = 3 };
+
+static PetscErrorCode warn(const cJSON *touching)
+{
+  const cJSON *one;
+  int          n = 0;
+  PetscFunctionBegin;
+  cJSON_ArrayForEach(one, touching)
+  {
+    const cJSON *bodies = cJSON_GetObjectItem(one, "bodies");
+    if (!cJSON_IsTrue(cJSON_GetObjectItem(one, LONELY)) || n++ >= WARNED) continue;
+    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
+                           "stickslip: warning: all that %s and %s carry between them at the end is at so few nodes that the contact is smaller than its "
+                           "facets, and its force may be off by tens of per cent. Take facets so fine that several lie in the contact.\n",
+                           cJSON_GetStringValue(cJSON_GetArrayItem(bodies, 0)), cJSON_GetStringValue(cJSON_GetArrayItem(bodies, 1))));
+  }
+  if (n > WARNED) PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR, "stickslip: warning: so it is with %d more pairs of bodies.\n", n - WARNED));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 PetscErrorCode skin_report_tell(const Output *output, const cJSON *root)
 {
@@ -245,6 +269,7 @@ PetscErrorCode skin_report_tell(const Output *output, const cJSON *root)
   const int    n         = cJSON_GetArraySize(sentences);
   int          printed   = 0;
   PetscFunctionBegin;
+  PetscCall(warn(cJSON_GetObjectItem(cJSON_GetObjectItem(root, KEY), "touching")));
   if (output->quiet) PetscFunctionReturn(PETSC_SUCCESS);
   cJSON_ArrayForEach(sentence, sentences)
   {

@@ -77,6 +77,7 @@ BAD_SCENES = [
     BadScene("no_slide", "friction: 0.5", "friction: 0.5, slide_max: 0", "base.slide_max"),
     BadScene("surfaces_twice", "interfaces: [base]", "interfaces: [base, again]\nagain: {nonmortar: zone, mortar: floor.zmax}", "again.mortar", says="'base'"),
     BadScene("unknown_law", "friction: 0.5", "law: sticky", "base.law"),
+    BadScene("tresca_without_friction", "friction: 0.5", "law: tresca, shear_limit: 1", "base.friction"),
     BadScene("tresca_without_limit", "friction: 0.5", "friction: 0.5, law: tresca", "base.shear_limit"),
     BadScene("limit_of_coulomb", "friction: 0.5", "friction: 0.5, shear_limit: 1", "base.shear_limit"),
     BadScene("cohesion_missing", "friction: 0.5", "friction: 0.5, law: cohesion", "base.cohesion"),

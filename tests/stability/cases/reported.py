@@ -16,6 +16,8 @@ REPORTS = Path(__file__).resolve().parents[2] / "data" / "reports"
 RIGHT = 0.02
 # Facets that are too coarse for the contact: the driver says so, and no more is asked of them.
 COARSE = "smaller than its facets|although they are .* apart|bodies of \\w+ overlap"
+# Offsets and wear that slant the surface against its mesh: so does the driver.
+SLOPES = "slopes against the mesh"
 AS_IT_IS = "as it is"
 VARIANTS = (AS_IT_IS, "dual", "standard", "normals of now", "normals of t_n", "exchanged", "finer")
 
@@ -84,6 +86,9 @@ SCENES = {
     "plane_wrongway": Report(lambda run: np.inf, 0.0, scale=1.0, refused="look the same way", variants=ONE_SIDE),
     "tie_far": Report(lambda run: np.inf, 0.0, scale=1.0, told="are tied although"),
     "pin": Report(reaction("drive", 1), -1.51, told=COARSE, variants=ONE_SIDE),
+    "worn_block": Report(reaction("d", 0), 0.5, told=SLOPES),
+    "shim": Report(ratio("d", 0, "g", 1), 0.0, scale=1.0, told=SLOPES, variants=VARIANTS[:5]),
+    "wedge": Report(reaction("d", 0), -5.1667, told=COARSE, variants=(AS_IT_IS, "finer")),
     "roller1": Report(reaction("fix", 1), 247.5, refused=COARSE, told=COARSE),
 }
 
