@@ -103,14 +103,12 @@ PetscErrorCode surfaces_move(Contact *contact, const Interface *interface)
 static PetscErrorCode find(Scene *scene, const Mesh *mesh, Interface *interface, const Surface *found[2])
 {
   static const char *const side_key[] = {"nonmortar", "mortar"};
-  char                     name[2 * NAME_LENGTH];
   PetscFunctionBegin;
   for (int side = 0; side < 2; side++) {
-    scene_string_required(scene, interface->name, side_key[side], name, sizeof(name));
-    found[side] = mesh_surface(scene, mesh, interface->name, side_key[side], name);
-    if (found[side]->inner) scene_fail(scene, interface->name, side_key[side], "'%s' lies inside a body.", name);
+    found[side] = mesh_side(scene, mesh, interface->name, side_key[side]);
+    if (found[side]->inner) scene_fail(scene, interface->name, side_key[side], "'%s' lies inside a body.", found[side]->name);
     if (found[side]->analytic && side == 0)
-      scene_fail(scene, interface->name, side_key[side], "'%s' is analytic: it can be the mortar side only.", name);
+      scene_fail(scene, interface->name, side_key[side], "'%s' is analytic: it can be the mortar side only.", found[side]->name);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -42,34 +42,55 @@ static PetscErrorCode end_of_numbers(const Surface *surface, PetscInt *end)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* `surfaces: [zone]`, zone: {of: block.zmin, within: [lower, upper]}; of one surface or of several */
+/* What several surfaces, or one, have in a box, as one of that name. */
+static PetscErrorCode join(Scene *scene, Mesh *mesh, const char *map, const char *key, PetscInt n, char *const of[], const PetscReal box[6], const char *name)
+{
+  PetscInt most = 0, first = 0, end, n_faces;
+  Surface *part;
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < n; i++) {
+    const Surface *whole = mesh_surface(scene, mesh, map, key, of[i]);
+    if (whole->analytic) scene_fail(scene, map, key, "'%s' is analytic: it is a surface by itself.", of[i]);
+    most += whole->n_faces;
+  }
+  PetscCall(mesh_add_surface(mesh, name, most, &part));
+  PetscCall(PetscMalloc1(most, &part->numbers));
+  for (PetscInt i = 0; i < n; i++) {
+    const Surface *whole = mesh_surface(scene, mesh, map, key, of[i]);
+    cut_out(mesh, whole, first, box, part);
+    PetscCall(end_of_numbers(whole, &end));
+    first += end;
+  }
+  n_faces = part->n_faces;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &n_faces, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
+  if (!n_faces) scene_fail(scene, map, "within", "no face of '%s' has its centre in this box.", of[0]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* `surfaces: [zone]`, zone: {of: block.zmin, within: [lower, upper]}; of one surface or of several. A side of an interface that is a list is one, too. */
 static PetscErrorCode derived_surfaces(Scene *scene, Mesh *mesh)
 {
-  PetscInt n;
-  char   **names;
+  static const char *const sides[] = {"nonmortar", "mortar"};
+  const PetscReal all[6] = {-PETSC_MAX_REAL, -PETSC_MAX_REAL, -PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL};
+  PetscInt n, n_of;
+  char   **names, **of;
   PetscFunctionBegin;
   scene_names(scene, "surfaces", &n, &names);
   for (PetscInt k = 0; k < n; k++) {
-    PetscReal box[6];
-    PetscInt  n_of, most = 0, first = 0, end, n_faces;
-    char    **of;
-    Surface  *part;
+    PetscReal       box[6];
+    const PetscBool cut = (PetscBool)space_box(scene, &mesh->space, names[k], "within", box);
     scene_strings(scene, names[k], "of", &n_of, &of);
     if (!n_of) scene_fail(scene, names[k], "of", "this key is missing.");
-    if (!space_box(scene, &mesh->space, names[k], "within", box)) scene_fail(scene, names[k], "within", "this key is missing.");
-    for (PetscInt i = 0; i < n_of; i++)
-      most += mesh_surface(scene, mesh, names[k], "of", of[i])->n_faces;
-    PetscCall(mesh_add_surface(mesh, names[k], most, &part));
-    PetscCall(PetscMalloc1(most, &part->numbers));
-    for (PetscInt i = 0; i < n_of; i++) {
-      const Surface *whole = mesh_surface(scene, mesh, names[k], "of", of[i]);
-      cut_out(mesh, whole, first, box, part);
-      PetscCall(end_of_numbers(whole, &end));
-      first += end;
-    }
-    n_faces = part->n_faces;
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &n_faces, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
-    if (!n_faces) scene_fail(scene, names[k], "within", "no face of '%s' has its centre in this box.", of[0]);
+    PetscCall(join(scene, mesh, names[k], "of", n_of, of, cut ? box : all, names[k]));
+    strings_destroy(n_of, &of);
+  }
+  strings_destroy(n, &names);
+  scene_strings(scene, NULL, "interfaces", &n, &names);
+  for (PetscInt k = 0; k < 2 * n; k++) {
+    char name[2 * NAME_LENGTH];
+    scene_strings(scene, names[k / 2], sides[k % 2], &n_of, &of);
+    mesh_side_name(names[k / 2], sides[k % 2], name, sizeof(name));
+    if (n_of > 1) PetscCall(join(scene, mesh, names[k / 2], sides[k % 2], n_of, of, all, name));
     strings_destroy(n_of, &of);
   }
   strings_destroy(n, &names);

@@ -21,6 +21,25 @@ const Surface *mesh_surface(Scene *scene, const Mesh *mesh, const char *map, con
   return NULL;
 }
 
+void mesh_side_name(const char *interface, const char *key, char name[], size_t length)
+{
+  snprintf(name, length, "%s.%s", interface, key);
+}
+
+const Surface *mesh_side(Scene *scene, const Mesh *mesh, const char *interface, const char *key)
+{
+  char     name[2 * NAME_LENGTH];
+  char   **of;
+  PetscInt n;
+  scene_strings(scene, interface, key, &n, &of);
+  if (n > 1)
+    mesh_side_name(interface, key, name, sizeof(name));
+  else
+    scene_string_required(scene, interface, key, name, sizeof(name));
+  strings_destroy(n, &of);
+  return mesh_surface(scene, mesh, interface, key, name);
+}
+
 PetscInt mesh_body(Scene *scene, const Mesh *mesh, const char *map, const char *key, const char *name)
 {
   for (PetscInt b = 0; b < mesh->n_bodies; b++) {

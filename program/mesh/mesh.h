@@ -104,6 +104,9 @@ PetscErrorCode mesh_measure(Mesh *mesh);
 
 /* lookup.c; the nearest vertex is known to every rank, by its number */
 const Surface *mesh_surface(Scene *scene, const Mesh *mesh, const char *map, const char *key, const char *name);
+/* a side of an interface, `nonmortar` or `mortar`; of a list the surface that they are together, which has this name */
+const Surface *mesh_side(Scene *scene, const Mesh *mesh, const char *interface, const char *key);
+void           mesh_side_name(const char *interface, const char *key, char name[], size_t length);
 PetscInt       mesh_body(Scene *scene, const Mesh *mesh, const char *map, const char *key, const char *name);
 PetscErrorCode mesh_nearest_vertex(Scene *scene, const Mesh *mesh, const char *map, PetscInt *number);
 PetscErrorCode mesh_vertex_at(Scene *scene, const Mesh *mesh, const char *map, const char *body_key, const char *point_key, PetscInt *number);

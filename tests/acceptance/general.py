@@ -76,11 +76,9 @@ def three_blocks(cases):
     whole = cases.run("three_blocks", scene)
     named = {key: value for key, value in scene.items() if key not in ("contact", "friction")}
     named |= {
-        "surfaces": ["tops"],
-        "tops": {"of": ["left.ymax", "right.ymax"], "within": [-9, -9, 9, 9]},
         "interfaces": ["between", "over"],
         "between": {"nonmortar": "left.xmax", "mortar": "right.xmin", "friction": 0.1},
-        "over": {"nonmortar": "upper.ymin", "mortar": "tops", "friction": 0.3},
+        "over": {"nonmortar": "upper.ymin", "mortar": ["left.ymax", "right.ymax"], "friction": 0.3},
     }
     pairs = cases.run("three_blocks_named", named)
     cases.verdicts.below("three blocks: all reactions against named pairs", apart(whole, pairs), SAME, "the same roles")

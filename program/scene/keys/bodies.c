@@ -77,7 +77,7 @@ static const Key RIGID[] = {
 
 static const Key SURFACES[] = {
   {"of", KEY_NAME, "name or list of surfaces", ANY, REQUIRED, "what it is cut out of: surfaces of one body, such as the three faces around a corner"},
-  {"within", KEY_NUMBERS, "`[x0, y0, z0, x1, y1, z1]` [L]", ANY, REQUIRED, "it holds the faces whose centre lies in this box"},
+  {"within", KEY_NUMBERS, "`[x0, y0, z0, x1, y1, z1]` [L]", ANY, "all of it", "it holds the faces whose centre lies in this box"},
 };
 
 static const Key SPACE[] = {

@@ -5,10 +5,10 @@ static const char PAGE[] = "c_examples/scenes/interface.md";
 
 /* In the README: what a user meets first. */
 static const Key FIRST[] = {
-  {"nonmortar", KEY_NAME, "name of a surface", ANY, REQUIRED,
+  {"nonmortar", KEY_NAME, "name or list of surfaces", ANY, REQUIRED,
    "the surface that has the multipliers. Take the one that stays covered: the smaller one, or the one that slides on the other; of two that stay "
    "covered the softer, of equally soft ones the finer"},
-  {"mortar", KEY_NAME, "name of a surface", ANY, REQUIRED, "the other surface"},
+  {"mortar", KEY_NAME, "name or list of surfaces", ANY, REQUIRED, "the other surface"},
   {"law", KEY_WORD, "coulomb none tied rough tresca cohesion weakening orthotropic", ANY, "`coulomb` where there is friction, `none` where there is not",
    "what holds the surfaces ([what each means](interface.md#laws-and-their-coefficients))"},
   {"friction", KEY_NUMBER, "", FROM(0), "0", "Coulomb's coefficient"},
