@@ -64,7 +64,7 @@ static PetscErrorCode shortest_mortar(const Interface *interface, const Mesh *me
   *shortest = PETSC_MAX_REAL;
   for (PetscInt f = 0; f < part->n_facets[1]; f++) {
     const PetscInt *nodes = part->facet_nodes[1] + part->offsets[1][f], n = part->offsets[1][f + 1] - part->offsets[1][f];
-    const PetscInt  corners = part->dimension == 2 ? 2 : n == 3 || n == 6 ? 3 : 4;
+    const PetscInt  corners = cell_corners(cell_kind(part->dimension - 1, n));
     for (PetscInt k = 0; k < corners; k++) {
       PetscReal a[3], b[3];
       contact_vector(part->dimension, MORTAR_OF(part, part->X), nodes[k], a);

@@ -36,7 +36,7 @@ static PetscErrorCode add_slopes(const Mesh *mesh, const Interface *interface, P
   PetscCall(contact_results(part, results));
   for (PetscInt f = 0; f < part->n_facets[0]; f++) {
     const PetscInt *nodes = part->facet_nodes[0] + part->offsets[0][f], n = part->offsets[0][f + 1] - part->offsets[0][f];
-    const PetscInt  corners = part->dimension == 2 ? 2 : n == 3 || n == 6 ? 3 : 4, three[3] = {0, 1, corners - 1};
+    const PetscInt  corners = cell_corners(cell_kind(part->dimension - 1, n)), three[3] = {0, 1, corners - 1};
     PetscReal       x[3][3], h[3], slope;
     for (int k = 0; k < 3; k++) {
       contact_vector(part->dimension, part->x, nodes[three[k]], x[k]);
