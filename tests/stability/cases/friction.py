@@ -45,8 +45,6 @@ def scene(friction, law="coulomb", drawn=DRAWN):
         "draw": {"surface": "upper.zmax", "components": ["x", "y"], "value": [drawn, 0, 0], "curve": [1, 0, 2, 1]},
         "interfaces": ["base"],
         "base": base | ({"friction": float(friction)} if law == "coulomb" else {}),
-        "probes": ["top"],  # where the feet are stuck on what does not move, displacements there are rounding
-        "top": {"body": "upper", "point": [0, 0, 1]},
         "steps": {"end": 2, "count": 10},
         "output": {"vtu": "none", "csv": "last"},
     }
@@ -75,10 +73,12 @@ def slides(friction):
 
 def sticks(friction):
     def run(context):
-        run = context.solve(scene(friction, drawn=DRAWN / 10))
+        # Where the feet stick on what does not move, displacements are rounding.
+        top = {"probes": ["top"], "top": {"body": "upper", "point": [0, 0, 1]}}
+        run = context.solve(scene(friction, drawn=DRAWN / 10) | top)
         result = host.outcome(run)
         if result.refusal is None:
-            rough = context.solve(scene(friction, "rough", DRAWN / 10), name="rough")
+            rough = context.solve(scene(friction, "rough", DRAWN / 10) | top, name="rough")
             result.below("against the rough law", difference(run, rough), SAME, "nothing slips in either")
         return result
 
