@@ -105,26 +105,37 @@ impl ParentFacet {
     }
 
     /// dN_B/dxi and dN_B/deta at node k.
-    #[inline(never)] // unrolled it is large
     fn slopes(&self, k: usize) -> [[f64; MAX_PARENT_NODES]; 2] {
         let [x, y] = self.parent.at[k];
         let [_, dx, dy] = monomial_slopes(x, y);
-        let slope =
-            |m: &[f64; TERMS], b: usize| (0..TERMS).map(|t| self.parent.functions[t][b / 4][b % 4] * m[t]).sum();
-        let mut slopes = [[0.0; MAX_PARENT_NODES]; 2];
+        [self.functions(&dx), self.functions(&dy)]
+    }
+
+    /// The functions N_B, or their slopes, of the terms or the terms' slopes.
+    #[inline(never)] // unrolled it is large
+    fn functions(&self, m: &[f64; TERMS]) -> [f64; MAX_PARENT_NODES] {
+        let mut n = [0.0; MAX_PARENT_NODES];
         for b in 0..rolled(self.parent.n) {
-            (slopes[0][b], slopes[1][b]) = (slope(&dx, b), slope(&dy, b));
+            n[b] = (0..TERMS).map(|t| self.parent.functions[t][b / 4][b % 4] * m[t]).sum();
         }
-        slopes
+        n
     }
 
     /// x_xi and x_eta with these slopes; of a line the second one is z.
     fn tangents(&self, slopes: &[[f64; MAX_PARENT_NODES]; 2]) -> [Vec3; 2] {
+        [self.sum(&slopes[0]), if self.parent.corners() == 2 { Vec3::z() } else { self.sum(&slopes[1]) }]
+    }
+
+    /// The sum of the nodes, but for the first one's part.
+    fn sum(&self, n: &[f64; MAX_PARENT_NODES]) -> Vec3 {
         // Differences of nodes: exact under a common offset.
-        let tangent = |slopes: &[f64; MAX_PARENT_NODES]| -> Vec3 {
-            (1..rolled(self.parent.n)).map(|b| (self.x[b] - self.x[0]) * slopes[b]).sum()
-        };
-        [tangent(&slopes[0]), if self.parent.corners() == 2 { Vec3::z() } else { tangent(&slopes[1]) }]
+        (1..rolled(self.parent.n)).map(|b| (self.x[b] - self.x[0]) * n[b]).sum()
+    }
+
+    /// The point at these coordinates, and x_xi and x_eta there.
+    pub fn point(&self, [xi, eta]: [f64; 2]) -> (Vec3, [Vec3; 2]) {
+        let [m, dx, dy] = monomial_slopes(xi, eta);
+        (self.x[0] + self.sum(&self.functions(&m)), self.tangents(&[self.functions(&dx), self.functions(&dy)]))
     }
 
     /// `rows` times the derivatives of m, the unit normal at node k, with respect to each node. With w = x_xi x x_eta,

@@ -112,7 +112,10 @@ impl Mortar<'_> {
         };
         let plane = Plane::of(&around(x, nu, size))?;
         tree.find(&Prism::over(&[x], &plane, OUTSIDE * size), found)?;
-        let gaps = found.iter().filter_map(|&f| below(&two.facet(f, &two.reference), x, &plane));
+        let gaps = found.iter().filter_map(|&f| {
+            let flat = below(&two.facet(f, &two.reference), x, &plane)?;
+            Some(curved(two, f, x, &plane).unwrap_or(flat))
+        });
         Ok(gaps.min_by(|a, b| a.abs().total_cmp(&b.abs())))
     }
 }
@@ -127,6 +130,28 @@ fn along(surface: &AnalyticSurface, x: Vec3, nu: Vec3) -> Option<f64> {
         }
         last = closest.distance.abs();
         gap += closest.distance / closest.normal.dot(&nu);
+    }
+    None
+}
+
+/// How far x lies over the facet with mid nodes that `f` is a part of, along the plane's normal: by Newton's method, from the part's middle. `None`:
+/// it has no mid nodes, or bends too much for that.
+fn curved(two: &Surface, f: usize, x: Vec3, plane: &Plane) -> Option<f64> {
+    let parents = two.parents.as_ref()?;
+    let (parent, sub) = (parents.at(parents.parent(f), &two.reference), parents.sub(f));
+    let nodes = &sub.nodes[..sub.shape.n];
+    let [mut xi, mut eta] =
+        [0, 1].map(|i| nodes.iter().map(|&k| parent.parent.at[k][i]).sum::<f64>() / nodes.len() as f64);
+    for _ in 0..ITERATIONS {
+        let (point, [a, b]) = parent.point([xi, eta]);
+        let away = x - point;
+        let [a, b, r] = [a, b, away].map(|v| [plane.t1.dot(&v), plane.t2.dot(&v)]);
+        let det = a[0] * b[1] - a[1] * b[0];
+        let [d_xi, d_eta] = [(r[0] * b[1] - r[1] * b[0]) / det, (a[0] * r[1] - a[1] * r[0]) / det];
+        (xi, eta) = (xi + d_xi, eta + d_eta);
+        if d_xi.abs().max(d_eta.abs()) <= ROUNDING {
+            return Some(plane.e.dot(&away));
+        }
     }
     None
 }
