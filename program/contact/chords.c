@@ -118,7 +118,12 @@ PetscErrorCode chords_tell(const Interface *interface)
                            "stickslip: warning: the facets of %s start with gaps from %.3g to %.3g, and the curved surfaces that are meant rise over them "
                            "by up to %.3g: where these touch the facets may not, so that a fit presses too little, or not at all. %s",
                            interface->name, -(double)gaps[0], (double)gaps[1], (double)both, REMEDY));
-  else if (gaps[1] < 0 && PetscAbsReal(taken) > FIT * gaps[0])
+  else if (interface->offsets.adjust > 0 && both > 0 && gaps[0] > TOUCHING * both)
+    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
+                           "stickslip: warning: the nodes of %s are adjusted, and its facets overlap by up to %.3g all the same, for they are chords of "
+                           "the curved surfaces that are meant: that presses by itself. %s",
+                           interface->name, (double)gaps[0], REMEDY));
+  else if (gaps[1] > PETSC_MIN_REAL && gaps[1] < 0 && PetscAbsReal(taken) > FIT * gaps[0])
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                            "stickslip: warning: the facets of %s start with overlaps from %.3g to %.3g, and the curved surfaces that are meant overlap by "
                            "about %.2g %s: facets are their chords, so that the fit presses some %.0f %% too %s. %s",

@@ -128,8 +128,9 @@ PetscErrorCode csv_adjusted(Output *output, const Interface *interface)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, count, 3, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD));
   if (!output->quiet)
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: adjust moved %d of %d nodes, by %g at most; %d are beyond the tolerance\n",
-                          interface->name, (int)count[STICKSLIP_ADJUST_MOVED], (int)interface->all[0], largest,
-                          (int)count[STICKSLIP_ADJUST_LEFT]));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: adjust moved %d of %d nodes, by %g at most; %d are beyond the tolerance; %d meet nothing along their normals, and "
+                          "stay\n",
+                          interface->name, (int)count[STICKSLIP_ADJUST_MOVED], (int)interface->all[0], largest, (int)count[STICKSLIP_ADJUST_LEFT],
+                          (int)count[STICKSLIP_ADJUST_ALONE]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
