@@ -123,7 +123,7 @@ DRIVER = [
     ("+ dynamics, weights of now", (*SLIDING, *MASS, "-contact_weights", "current")),
     ("+ dynamics, a rigid body that turns freely", (*SLIDING, *MASS, *TURNED, "-tool_mass", "1", "-tool_inertia", "1,2,3", "-tool_spin", "0,0,0.1")),
     ("law: cohesion", (*SLIDING, *law("cohesion", "-contact_cohesion", "0.01"))),
-    ("law: Tresca's", (*FACETS, *LARGE, *DEFORMABLE, *law("tresca", "-contact_shear_limit", "0.2"))),
+    ("law: Tresca's", (*SLIDING, *law("tresca", "-contact_shear_limit", "0.2"))),
     ("law: weakening", (*SLIDING, *law("weakening", "-contact_friction_after", "0.1", "-contact_critical_slip", "0.01"))),
     ("law: orthotropic", (*SLIDING, *law("orthotropic", "-contact_friction_across", "0.1", "-contact_direction", "1,1,0"))),
     ("law: rough", (*FACETS, *LARGE, *DEFORMABLE, *law("rough", "-contact_basis", "standard"))),  # dual: a node that pulls has no state of rest
