@@ -9,19 +9,18 @@ PetscInt lonely_few(PetscInt dimension) { return dimension == 2 ? 2 : 5; }
 
 /* What is closed. */
 typedef struct {
-  PetscReal nodes, area, of;     /* their number, their area, all nodes */
-  PetscReal most[4];             /* of the one that is closed most the place and the area */
-  PetscReal low[3], high[3];     /* their box in the undeformed body */
+  PetscReal nodes, area, of; /* their number, their area, all nodes */
+  PetscReal most[4];         /* of the one that is closed most the place and the area */
+  PetscReal wide;            /* how far they reach in the undeformed body */
 } Closed;
 
 static PetscErrorCode find_closed(const Interface *interface, const Mesh *mesh, Closed *found)
 {
   const ContactStates *states = &interface->states;
-  PetscReal            sums[3] = {0, 0, interface->n1}, most = 0, box[6];
+  PetscReal            sums[3] = {0, 0, interface->n1}, most = 0;
+  Extent               extent = extent_of_nothing();
   PetscFunctionBegin;
   *found = (Closed){.most = {0}};
-  for (int i = 0; i < 6; i++)
-    box[i] = PETSC_MIN_REAL;
   for (PetscInt a = 0; a < interface->n1; a++) {
     const PetscReal closed = states->closed[a] * states->coverage[a];
     PetscReal       x[3];
@@ -29,10 +28,7 @@ static PetscErrorCode find_closed(const Interface *interface, const Mesh *mesh, 
     contact_vector(interface->dimension, interface->X, a, x);
     sums[0]++;
     sums[1] += closed;
-    for (int i = 0; i < 3; i++) {
-      box[i]     = PetscMax(box[i], -x[i]);
-      box[3 + i] = PetscMax(box[3 + i], x[i]);
-    }
+    extent_add(&extent, x);
     if (closed <= most) continue;
     most = closed;
     for (int i = 0; i < 3; i++)
@@ -40,11 +36,10 @@ static PetscErrorCode find_closed(const Interface *interface, const Mesh *mesh, 
     found->most[3] = states->area[a];
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, box, 6, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
+  PetscCall(extent_of_all(&extent));
   PetscCall(contact_largest(mesh, &most, sizeof(found->most), found->most));
   found->nodes = sums[0], found->area = sums[1], found->of = sums[2];
-  for (int i = 0; i < 3; i++)
-    found->low[i] = -box[i], found->high[i] = box[3 + i];
+  found->wide = sums[0] > 0 ? PetscSqrtReal(extent_diagonal_squared(&extent)) : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -91,8 +86,8 @@ PetscErrorCode lonely_tell(const Interface *interface, const Mesh *mesh)
   if (points && closed.area < closed.most[3]) PetscCall(PetscSNPrintf(where, sizeof(where), "is less than the area of one node"));
   else if (!points && closed.nodes == 1) PetscCall(PetscSNPrintf(where, sizeof(where), "is at one node"));
   else if (!points && closed.nodes <= lonely_few(interface->dimension)) PetscCall(PetscSNPrintf(where, sizeof(where), "is at %d nodes", (int)closed.nodes));
-  else if (distance(closed.low, closed.high) < mortar)
-    PetscCall(PetscSNPrintf(where, sizeof(where), "is %.2g wide, less than any mortar facet", (double)distance(closed.low, closed.high)));
+  else if (closed.wide < mortar)
+    PetscCall(PetscSNPrintf(where, sizeof(where), "is %.2g wide, less than any mortar facet", (double)closed.wide));
   else PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                          "stickslip: warning: all that %s carries at the end %s, at (%g, %g, %g) in the undeformed body: the contact is smaller "
