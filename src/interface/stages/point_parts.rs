@@ -73,7 +73,9 @@ impl Points {
             self.pairs.store(PointPair { two: g, whole: weights.own, dual: PairWeights::default(), parts })?;
             self.acts.store(weights.all)?;
         }
-        let (rows, mut nodes, mut sizes) = (one.rows(i).as_slice(), [Vec3::zeros(); MAX_CORNERS], [0.0; MAX_CORNERS]);
+        let rows = one.rows(i).as_slice();
+        // A triangle's fourth point is its first one.
+        let (mut nodes, mut sizes) = ([at.x.0[rows[0]]; MAX_CORNERS], [0.0; MAX_CORNERS]);
         for (k, &a) in rows.iter().enumerate() {
             (nodes[k], sizes[k]) = (at.x.0[a], size(a));
         }

@@ -55,13 +55,11 @@ fn of_line_weights(weights: &LineWeights) -> PairWeights {
     n
 }
 
-/// Those of two lines with two nodes.
+/// Those of a line with two nodes and of another one, or of the points of a frame.
 pub(super) fn of_parent_weights(weights: &ParentWeights) -> PairWeights {
-    let mut n = PairWeights::default();
-    for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-        (n.ab[a][b], n.ac[a][b]) = (weights.ab[a][b], weights.ac[a][b]);
-    }
-    n
+    let first =
+        |of: &[[f64; MAX_PARENT_NODES]; MAX_PARENT_NODES]| std::array::from_fn(|a| std::array::from_fn(|k| of[a][k]));
+    PairWeights { ab: first(&weights.ab), ac: first(&weights.ac) }
 }
 
 fn scaled(weights: &PairWeights, by: f64) -> PairWeights {

@@ -5,7 +5,7 @@ use super::choice::{Asked, Choice};
 use super::dependence::{by_parameters, by_previous_positions};
 use super::handles::{Handles, Refused, TakesLaw, of, when};
 use super::scene::{At, Scene};
-use super::system::{Direction, System};
+use super::system::{Direction, Grouped, System};
 use crate::support::differences::Point;
 use crate::support::max_abs;
 use crate::support::mesh::{Create, Random};
@@ -21,6 +21,14 @@ const RESTARTED: f64 = 1e-9;
 pub const DIFFERENCES: f64 = 1e-6;
 /// Steps of differences over the model's size, largest first: the best of them counts, for near a kink only small ones do.
 const STEPS: [f64; 4] = [1e-6, 2e-7, 4e-8, 8e-9];
+/// Where points decide, one of them may have its kink on one side of a state, which no node tells: the other side counts, too. The
+/// steps below this are small enough for differences of one side.
+const ONE_SIDED: f64 = 1e-7;
+/// The error of differences of one side: rounding over such a step.
+const OF_ONE_SIDE: f64 = 1e-5;
+/// Steps whose differences, and those of their halves, are extrapolated to none: conserving forces divide by motions of a thousandth, and
+/// their rounding needs a step at which curvature counts.
+const LARGE: [f64; 3] = [3.2e-5, 1.6e-5, 6.4e-6];
 /// Below this a kind of entries is noise of the others.
 const NOTHING: f64 = 1e-9;
 /// Entries in place against those of the pieces, over the largest: other orders of sums.
@@ -28,6 +36,9 @@ const IN_PLACE: f64 = 1e-9;
 
 /// Entries of a plan against those one by one, over the largest: other orders of sums.
 const PLAN: f64 = 1e-12;
+
+/// A residual somewhere else, over the largest force or row: rounding of positions, over gaps of a thousandth of them.
+const ELSEWHERE: f64 = 1e-9;
 
 /// Numbers that make all parts of the law act.
 const CONDUCTANCE: Conductance = Conductance {
@@ -72,23 +83,40 @@ fn error(found: &[Vec<f64>], expected: &[Vec<f64>]) -> f64 {
     found.iter().zip(expected).map(of).fold(0.0, f64::max)
 }
 
+/// A sum of two.
+fn weighted(by: [f64; 2], of: [&Grouped; 2]) -> Grouped {
+    let rows = of[0].iter().zip(of[1]);
+    rows.map(|(a, b)| a.iter().zip(b).map(|(a, b)| by[0] * a + by[1] * b).collect()).collect()
+}
+
 /// Compares what `value` does along a direction with its derivative; states that change are kinks. Whether it was compared.
 pub fn compare<E>(
     found: &mut Found,
     what: &str,
     exact: &[Vec<f64>],
-    mut value: impl FnMut(f64) -> Result<(Vec<Vec<f64>>, Vec<u8>), E>,
+    mut value: impl FnMut(f64) -> Result<(Grouped, Vec<u8>), E>,
 ) -> Result<(), E> {
-    let (_, states) = value(0.0)?;
+    let (here, states) = value(0.0)?;
     let (mut best, mut same) = (f64::INFINITY, true);
     for h in STEPS {
         let ((plus, s1), (minus, s2)) = (value(h)?, value(-h)?);
-        let differences: Vec<Vec<f64>> =
-            plus.iter().zip(&minus).map(|(p, m)| p.iter().zip(m).map(|(p, m)| (p - m) / (2.0 * h)).collect()).collect();
-        best = error(&differences, exact).min(best);
+        best = error(&weighted([0.5 / h, -0.5 / h], [&plus, &minus]), exact).min(best);
         same = s1 == states && s2 == states;
+        if h < ONE_SIDED && best > DIFFERENCES {
+            let sides = [[&plus, &here], [&here, &minus]].map(|of| error(&weighted([1.0 / h, -1.0 / h], of), exact));
+            best = if sides[0].min(sides[1]) <= OF_ONE_SIDE { 0.0 } else { best };
+        }
         if best <= DIFFERENCES {
             break;
+        }
+    }
+    if best > DIFFERENCES && same {
+        let central = |h: f64, value: &mut dyn FnMut(f64) -> Result<(Grouped, Vec<u8>), E>| {
+            Ok::<_, E>(weighted([0.5 / h, -0.5 / h], [&value(h)?.0, &value(-h)?.0]))
+        };
+        for h in LARGE {
+            let (large, half) = (central(h, &mut value)?, central(0.5 * h, &mut value)?);
+            best = error(&weighted([4.0 / 3.0, -1.0 / 3.0], [&half, &large]), exact).min(best);
         }
     }
     if best <= DIFFERENCES || same {
@@ -115,6 +143,9 @@ where
         let at = scene.at::<N>(step);
         let before = when(Asked::Residual, handles.residual(&at))?;
         balance(&scene, &at, &before, &mut found);
+        if step == 0 {
+            elsewhere(&scene, &at, &before, &mut found)?;
+        }
         let answers = when(Asked::Residual, handles.answers(&at))?;
         answers
             .iter()
@@ -164,6 +195,26 @@ fn balance<const N: usize>(scene: &Scene, at: &At<N>, r: &[f64], found: &mut Fou
     if !(off <= BALANCE * size.max(NOTHING)) {
         found.wrong(format!("forces of both sides add up to {off:.1e} of {size:.1e}"));
     }
+}
+
+/// Where everything is moved, forces and rows stay.
+fn elsewhere<const N: usize>(scene: &Scene, at: &At<N>, before: &[f64], found: &mut Found) -> Result<(), Refused>
+where
+    Contact<N>: Create<N> + TakesLaw,
+{
+    let (scene, by) = scene.elsewhere();
+    let moved = |x: &[Vec3]| x.iter().map(|x| x + by).collect();
+    let at = At { x1: moved(&at.x1), x2: moved(&at.x2), lambda: at.lambda.clone() };
+    let r = when(Asked::Residual, Handles::<N>::new(&scene)?.residual(&at))?;
+    let rows = 3 * (at.x1.len() + at.x2.len());
+    for (what, range) in [("forces", 0..rows), ("rows", rows..r.len())] {
+        let (r, before) = (&r[range.clone()], &before[range]);
+        let off = max_abs(r.iter().zip(before).map(|(a, b)| a - b)) / max_abs(before.iter().copied()).max(NOTHING);
+        if !(off <= ELSEWHERE) {
+            found.wrong(format!("{what} are off by {off:.1e} where everything is moved by {by:?}"));
+        }
+    }
+    Ok(())
 }
 
 fn tangents<const N: usize>(system: &mut System<N>, found: &mut Found, step: usize) -> Result<(), Refused>

@@ -266,8 +266,8 @@ where
         when(Asked::Offsets, contact.set_offsets(of))?;
     }
     if c.is("extra", "normals") {
-        let normal = |x: &Vec3| (-scene.down() + 0.02 * (3.0 * x.x).sin() * Vec3::x()).normalize();
-        when(Asked::Normals, contact.set_normals(Some(scene.one.x.iter().map(normal).collect())))?;
+        let normal = |k: usize| (-scene.down() + 0.02 * (1.3 * k as f64).sin() * Vec3::x()).normalize();
+        when(Asked::Normals, contact.set_normals(Some((0..n1).map(normal).collect())))?;
     }
     if c.is("extra", "constraints") {
         let first = (0..n1).find(|&a| scene.has_row[a]).unwrap();

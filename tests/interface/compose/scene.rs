@@ -125,6 +125,19 @@ impl Scene {
         Scene { choice, one, two, has_row }
     }
 
+    /// The same somewhere else: along the axis of axisymmetric models, anywhere of others.
+    pub fn elsewhere(&self) -> (Scene, Vec3) {
+        let by = match (self.choice.is_axisymmetric(), self.choice.has_lines()) {
+            (true, _) => Vec3::new(0.0, -1.3, 0.0),
+            (_, true) => Vec3::new(0.7, -1.3, 0.0),
+            _ => Vec3::new(0.7, -1.3, 0.4),
+        };
+        let moved = |mesh: &Mesh| Mesh { x: mesh.x.iter().map(|x| x + by).collect(), facets: mesh.facets.clone() };
+        let scene =
+            Scene { choice: self.choice, one: moved(&self.one), two: moved(&self.two), has_row: self.has_row.clone() };
+        (scene, by)
+    }
+
     pub fn down(&self) -> Vec3 {
         if self.choice.has_lines() { -Vec3::y() } else { -Vec3::z() }
     }

@@ -86,7 +86,7 @@ pub struct System<'a, const N: usize> {
     host: Vec<f64>,
 }
 
-type Grouped = Vec<Vec<f64>>;
+pub type Grouped = Vec<Vec<f64>>;
 
 impl<'a, const N: usize> System<'a, N>
 where
