@@ -280,9 +280,9 @@
 /// Not with (UNSUPPORTED): the paper's slip measure (STICKSLIP_SLIP_PAPER); points that decide (STICKSLIP_DECISION_POINTS);
 /// the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (method.element_points); nodes that others
 /// carry (weak_coverage > 0, the default of dual multipliers); an analytic mortar side whose frame has equations; normals of
-/// the host; offsets; a layer between the surfaces (stickslip_interface_set_layer); a law of one's own; orthotropic
-/// friction; nodes that handles share (owned has STICKSLIP_NODE_SHARED); condensation; sums of several handles; derivatives
-/// of heat by displacements and multipliers; derivatives by positions of t_n and by parameters.
+/// the host; offsets; a layer between the surfaces (stickslip_interface_set_layer); nodes that handles share (owned has
+/// STICKSLIP_NODE_SHARED); condensation; sums of several handles; derivatives of heat by displacements and multipliers;
+/// derivatives by positions of t_n and by parameters.
 #define STICKSLIP_WEIGHTS_CONSERVING 5
 
 /// Of now, unless weights are frozen or the host gives normals: then of the last commit. Default.
@@ -393,10 +393,9 @@
 /// augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (method.element_points); nodes that others
 /// carry (weak_coverage > 0, the default of dual multipliers); conserving weights (STICKSLIP_WEIGHTS_CONSERVING); an
 /// analytic mortar side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid nodes and weights of now
-/// (STICKSLIP_WEIGHTS_CURRENT); a law of one's own; wear or a bond (stickslip_layer); parts of an interface (owned has
-/// STICKSLIP_NODE_ELSEWHERE); nodes that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes
-/// (stickslip_interface_set_committed) and friction; condensation; derivatives of heat by displacements and multipliers;
-/// derivatives by positions of t_n and by parameters.
+/// (STICKSLIP_WEIGHTS_CURRENT); a law of one's own; wear or a bond (stickslip_layer); nodes that handles share (owned has
+/// STICKSLIP_NODE_SHARED); a history of nodes (stickslip_interface_set_committed) and friction; condensation; derivatives of
+/// heat by displacements and multipliers; derivatives by positions of t_n and by parameters.
 #define STICKSLIP_DECISION_POINTS 1
 
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
@@ -642,8 +641,7 @@
 
 /// Orthotropic friction: mu along a direction, mu_across across it. Tractions stick within an ellipse, and slip goes at a right angle to
 /// its border.
-/// Not with (UNSUPPORTED): lines; conserving weights (STICKSLIP_WEIGHTS_CONSERVING); derivatives by positions of t_n and by
-/// parameters.
+/// Not with (UNSUPPORTED): lines; derivatives by positions of t_n and by parameters.
 #define STICKSLIP_LAW_ORTHOTROPIC 3
 
 /// Friction that weakens with the velocity v of slip: mu_after + (mu - mu_after) exp(-v / critical_rate), v the slip of the step over `time`:
@@ -2872,8 +2870,8 @@ int32_t stickslip_rigid_destroy(struct stickslip_rigid **rigid);
 /// of which kind they are: set it again after a restart, before the import. A law of the same kind goes on with the states that
 /// there are, and its numbers may change from step to step; another one begins with states 0, and no commit before it can be undone.
 ///
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); conserving weights
-/// (STICKSLIP_WEIGHTS_CONSERVING); derivatives by positions of t_n and by parameters.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); derivatives by positions of t_n and by
+/// parameters.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a number; an interface with another law), UNSUPPORTED (see
 /// above and the kinds).

@@ -32,8 +32,10 @@ static int32_t check_whole(const stickslip_mpi_interface *interface)
   if (!interface->whole[0].n_facets || (!interface->whole[1].n_facets && !analytic))
     return refuse(STICKSLIP_INVALID_VALUE, "%s has no facet on any rank; one at least is needed.",
                   interface->whole[0].n_facets ? "mortar" : "nonmortar");
-  if (interface->choices.decision == STICKSLIP_DECISION_POINTS && interface->size > 1)
-    return refuse(STICKSLIP_UNSUPPORTED, "method.decision is STICKSLIP_DECISION_POINTS on %d ranks; on several STICKSLIP_DECISION_NODES is allowed.",
+  if (interface->choices.decision == STICKSLIP_DECISION_POINTS && interface->options.friction != STICKSLIP_FRICTION_NONE && interface->size > 1)
+    return refuse(STICKSLIP_UNSUPPORTED,
+                  "method.decision is STICKSLIP_DECISION_POINTS with friction on %d ranks: what points remember does not migrate; "
+                  "on several ranks STICKSLIP_FRICTION_NONE or STICKSLIP_DECISION_NODES is allowed.",
                   interface->size);
   return STICKSLIP_OK;
 }

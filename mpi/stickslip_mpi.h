@@ -117,7 +117,7 @@ const char *stickslip_mpi_last_error_message(void);
 /// options: as of stickslip_interface_create; the same on all ranks. method: NULL for the library's choices. out, output.
 ///
 /// Errors: those of stickslip_interface_create; INVALID_VALUE (a node with two owners or none, a facet given twice, no facet at
-/// all), INDEX_OUT_OF_RANGE (more than 2^31 - 1 nodes), UNSUPPORTED (points that decide, on several ranks).
+/// all), INDEX_OUT_OF_RANGE (more than 2^31 - 1 nodes), UNSUPPORTED (points that decide with friction, on several ranks).
 /// Cost: every rank gathers numbers, coordinates and facets of both whole surfaces, and keeps them.
 int32_t stickslip_mpi_interface_create(MPI_Comm comm, const stickslip_mpi_share *nonmortar, const stickslip_mpi_share *mortar,
                                        const stickslip_options *options, const stickslip_mpi_method *method,

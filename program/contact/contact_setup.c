@@ -96,11 +96,12 @@ static PetscBool offsets_allow_parts(const Interface *interface)
   return (PetscBool)(!offsets->n_points && offsets->radius[0] == 0 && offsets->radius[1] == 0);
 }
 
-/* One rank has all nodes where the library does not know parts, as of a skin and where points decide. Lines of a plane model are few;
- * they stay together, too. */
+/* One rank has all nodes where the library does not know parts, as of a skin, and where points remember what nobody brings to
+ * another rank. Lines of a plane model are few; they stay together, too. */
 static PetscBool must_be_whole(const Contact *contact, const Interface *interface)
 {
-  return (PetscBool)(interface->dimension == 2 || interface->skin || decision_is_points(interface) || (contact->condensed && interface->middles) ||
+  const PetscBool remembers = (PetscBool)(decision_is_points(interface) && interface->options.friction != STICKSLIP_FRICTION_NONE);
+  return (PetscBool)(interface->dimension == 2 || interface->skin || remembers || (contact->condensed && interface->middles) ||
                      !offsets_allow_parts(interface));
 }
 

@@ -23,8 +23,7 @@ pub const STICKSLIP_LAW_COHESION: i32 = 1;
 pub const STICKSLIP_LAW_WEAKENING: i32 = 2;
 /// Orthotropic friction: mu along a direction, mu_across across it. Tractions stick within an ellipse, and slip goes at a right angle to
 /// its border.
-/// Not with (UNSUPPORTED): lines; conserving weights (STICKSLIP_WEIGHTS_CONSERVING); derivatives by positions of t_n and by
-/// parameters.
+/// Not with (UNSUPPORTED): lines; derivatives by positions of t_n and by parameters.
 pub const STICKSLIP_LAW_ORTHOTROPIC: i32 = 3;
 /// Friction that weakens with the velocity v of slip: mu_after + (mu - mu_after) exp(-v / critical_rate), v the slip of the step over `time`:
 /// set the law again where a step takes another time. Where it falls faster than inertia and the host's own damping hold, a body sticks and slips.
@@ -236,8 +235,8 @@ fn read_law(law: *const stickslip_law) -> Result<Option<Own>> {
 /// of which kind they are: set it again after a restart, before the import. A law of the same kind goes on with the states that
 /// there are, and its numbers may change from step to step; another one begins with states 0, and no commit before it can be undone.
 ///
-/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); conserving weights
-/// (STICKSLIP_WEIGHTS_CONSERVING); derivatives by positions of t_n and by parameters.
+/// Not with (UNSUPPORTED): points that decide (STICKSLIP_DECISION_POINTS); derivatives by positions of t_n and by
+/// parameters.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a number; an interface with another law), UNSUPPORTED (see
 /// above and the kinds).

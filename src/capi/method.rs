@@ -41,9 +41,9 @@ pub const STICKSLIP_WEIGHTS_REFERENCE: i32 = 3;
 /// Not with (UNSUPPORTED): the paper's slip measure (STICKSLIP_SLIP_PAPER); points that decide (STICKSLIP_DECISION_POINTS);
 /// the augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (method.element_points); nodes that others
 /// carry (weak_coverage > 0, the default of dual multipliers); an analytic mortar side whose frame has equations; normals of
-/// the host; offsets; a layer between the surfaces (stickslip_interface_set_layer); a law of one's own; orthotropic
-/// friction; nodes that handles share (owned has STICKSLIP_NODE_SHARED); condensation; sums of several handles; derivatives
-/// of heat by displacements and multipliers; derivatives by positions of t_n and by parameters.
+/// the host; offsets; a layer between the surfaces (stickslip_interface_set_layer); nodes that handles share (owned has
+/// STICKSLIP_NODE_SHARED); condensation; sums of several handles; derivatives of heat by displacements and multipliers;
+/// derivatives by positions of t_n and by parameters.
 pub const STICKSLIP_WEIGHTS_CONSERVING: i32 = 5;
 /// Of now, unless weights are frozen or the host gives normals: then of the last commit. Default.
 pub const STICKSLIP_NORMALS_AUTO: i32 = 0;
@@ -129,10 +129,9 @@ pub const STICKSLIP_DECISION_NODES: i32 = 0;
 /// augmented form (STICKSLIP_FORM_AUGMENTED); points that stand for overlaps (method.element_points); nodes that others
 /// carry (weak_coverage > 0, the default of dual multipliers); conserving weights (STICKSLIP_WEIGHTS_CONSERVING); an
 /// analytic mortar side and weights of now (STICKSLIP_WEIGHTS_CURRENT); facets with mid nodes and weights of now
-/// (STICKSLIP_WEIGHTS_CURRENT); a law of one's own; wear or a bond (stickslip_layer); parts of an interface (owned has
-/// STICKSLIP_NODE_ELSEWHERE); nodes that handles share (owned has STICKSLIP_NODE_SHARED); a history of nodes
-/// (stickslip_interface_set_committed) and friction; condensation; derivatives of heat by displacements and multipliers;
-/// derivatives by positions of t_n and by parameters.
+/// (STICKSLIP_WEIGHTS_CURRENT); a law of one's own; wear or a bond (stickslip_layer); nodes that handles share (owned has
+/// STICKSLIP_NODE_SHARED); a history of nodes (stickslip_interface_set_committed) and friction; condensation; derivatives of
+/// heat by displacements and multipliers; derivatives by positions of t_n and by parameters.
 pub const STICKSLIP_DECISION_POINTS: i32 = 1;
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
 pub const STICKSLIP_ROW_SCALE_FORCE: i32 = 0;

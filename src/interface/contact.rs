@@ -223,7 +223,7 @@ impl<const N: usize> Contact<N> {
     }
 
     /// Where the multipliers of the nodes act, of a part of an interface. Facets of which no node acts here are left out, unless
-    /// nodes carry others: who carries them follows from what is covered farther away. Before the first step: t_n becomes the
+    /// nodes carry others, or points decide: who carries them, and what points know, follows from what is covered farther away. Before the first step: t_n becomes the
     /// reference configuration.
     pub fn set_owners(&mut self, owners: Vec<Owner>) -> Result<()> {
         self.setup.refuse(&[
@@ -232,8 +232,8 @@ impl<const N: usize> Contact<N> {
         ])?;
         self.setup.nodes.set_owners(owners)?;
         let Setup { nonmortar, nodes, options, .. } = &mut self.setup;
-        let carries = options.effective_weak_coverage() > 0.0;
-        nonmortar.set_idle(|a| carries || nodes.acts(a))?;
+        let needs_others = options.effective_weak_coverage() > 0.0 || options.decides_at_points();
+        nonmortar.set_idle(|a| needs_others || nodes.acts(a))?;
         self.cache.forget();
         self.linear.forget();
         if self.setup.nonmortar.idle.is_empty() {

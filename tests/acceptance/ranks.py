@@ -60,6 +60,7 @@ SHORT = (
     ("two_blocks", "augmented", ("-contact_form", "augmented"), (2,)),
     ("two_blocks", "normals of now", ("-contact_normals", "current"), (3,)),
     ("ball_on_plane", "", (), (2,)),
+    ("ball_on_block", "points", ("-contact_decision", "points"), (3,)),
     ("patch_tied", "", (), (3,)),
     ("rigid_punch", "", (), (2,)),
     ("klarbring", "more ranks than nodes", (), (3, 5)),

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, SVector};
 use proptest::prelude::*;
 use stickslip::geometry::Vec3;
 use stickslip::interface::{
-    Contact, Form, Friction, MultiplierBasis, NO_WEAK_COVERAGE, Normals, Options, Scheme, Weights,
+    Contact, Decision, Form, Friction, MultiplierBasis, NO_WEAK_COVERAGE, Normals, Options, Scheme, Weights,
 };
 use stickslip::law::SlipMeasure;
 use stickslip::mortar::MultiplierSpace;
@@ -23,6 +23,8 @@ pub const RINGS: usize = 3;
 /// The same where nodes carry others: four facets to a node that is carried, four from there to its other carriers, one to the
 /// best covered neighbour that says whether these are strong, and the three around it.
 pub const RINGS_OF_CARRIERS: usize = 12;
+/// The same where points decide: a facet needs the gaps of all of its nodes, and so one ring more that is integrated.
+const RINGS_OF_POINTS: usize = 4;
 /// Of these the first eight are needed where carriers are covered as a whole.
 pub const RINGS_OF_COVERED_CARRIERS: usize = 8;
 
@@ -248,10 +250,11 @@ fn step<const N: usize>(scene: &mut Scene<N>, k: usize) -> Option<(f64, f64, boo
     scene.whole.commit(&x1, &x2, &lambda, None).ok()?;
     let host_pairs = |c: &Contact<N>| c.history().pairs.iter().map(|p| p.one).collect::<Vec<_>>();
     for part in &scene.parts {
-        let carries = scene.whole.options().effective_weak_coverage() > 0.0;
+        let options = scene.whole.options();
+        let sees_more = options.effective_weak_coverage() > 0.0 || options.decides_at_points();
         let facets = &part.contact.surfaces().0.facets;
         let acts = |f: usize| facets[f].as_slice().iter().any(|&k| part.own[k]);
-        same &= carries || host_pairs(&part.contact).into_iter().all(acts);
+        same &= sees_more || host_pairs(&part.contact).into_iter().all(acts);
         let (of_part, of_whole) = (part.contact.history(), scene.whole.history());
         for (k, &a) in part.nodes[0].iter().enumerate().filter(|(k, _)| part.own[*k]) {
             same &= of_part.normals[k] == of_whole.normals[a] && of_part.areas[k] == of_whole.areas[a];
@@ -289,7 +292,8 @@ where
 {
     let carries = options.effective_weak_coverage() > 0.0;
     // What is deep is seen from farther away where the surfaces are curved.
-    let around = if carries { RINGS_OF_CARRIERS } else { RINGS } + recipe.depth.ceil() as usize;
+    let of_points = if options.decides_at_points() { RINGS_OF_POINTS } else { RINGS };
+    let around = if carries { RINGS_OF_CARRIERS } else { of_points } + recipe.depth.ceil() as usize;
     let scene = recipe.scene::<N>(options, around);
     prop_assume!(scene.is_some());
     let mut scene = scene.unwrap();
@@ -378,5 +382,19 @@ proptest! {
         let space = if recipe.seed.is_multiple_of(2) { MultiplierSpace::Corner } else { MultiplierSpace::Sub };
         let options = Options { form, normals, scheme, space, ..recipe.options() };
         agree::<3>(&recipe, options)?;
+    }
+
+    /// The same where points decide, which remember nothing without friction.
+    #[test]
+    fn parts_where_points_decide_add_up_to_the_whole(recipe in recipes(), kinds in any::<[prop::sample::Index; 2]>()) {
+        let kinds = (recipe.seed % 4 == 0).then(|| kinds.map(|kind| *kind.get(&[6, 8, 9])));
+        let bend = if kinds.is_some() { 0.1 * recipe.bend } else { recipe.bend };
+        let recipe = Recipe { kinds, bend, depth: 0.0, ..recipe };
+        let (form, scheme) = (Form::Multiplier, Scheme::Segments);
+        let of = Options { form, scheme, basis: MultiplierBasis::Dual, weak_coverage: 0.0, ..recipe.options() };
+        let weights = if kinds.is_some() { Weights::Committed } else { of.weights };
+        let normals = if weights == Weights::Current { of.normals } else { Normals::Committed };
+        let options = Options { weights, normals, decision: Decision::Points(1.0), ..of };
+        agree::<1>(&recipe, under(Friction::None, 0.0, options))?;
     }
 }

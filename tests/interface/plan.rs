@@ -38,7 +38,8 @@ pub fn agrees<const N: usize>(c: &mut Contact<N>, x1: &[Vec3], x2: &[Vec3], lamb
         let n = c.make_plan((x1, x2), pairs).unwrap();
         let found = entries(c.plan(PlanSystem::Whole).unwrap());
         assert_eq!(n, found.len());
-        if pairs == PlanPairs::Active(Extent::Whole) {
+        // Where points decide, a tangent leaves out what is open, and what forces have elsewhere.
+        if pairs == PlanPairs::Active(Extent::Whole) && !c.options().decides_at_points() {
             assert!(found.iter().eq(expected.keys()), "{what}: {} entries for {}", found.len(), expected.len());
         }
         for _ in 0..2 {

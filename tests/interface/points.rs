@@ -426,8 +426,8 @@ fn what_points_do_not_go_with_is_refused_by_name() {
     refused(Options { scheme: Scheme::Elements(&line::GAUSS_2), ..of }, "stand for overlaps");
     refused(Options { weak_coverage: 0.2, ..of }, "weak_coverage");
     let mut contact = contact::<1>(&one, &two, false, of);
-    let error = contact.set_owners(vec![Owner::Here, Owner::Elsewhere, Owner::Here, Owner::Here]).unwrap_err();
-    assert!(error.kind == Kind::Unsupported && error.message.contains("parts"), "{error}");
+    let error = contact.set_owners(vec![Owner::Here, Owner::Shared, Owner::Here, Owner::Here]).unwrap_err();
+    assert!(error.kind == Kind::Unsupported && error.message.contains("NODE_SHARED"), "{error}");
     contact.set_owners(vec![Owner::Here; 4]).unwrap();
     let sums = contact.sums(&one.x, &two.x).unwrap();
     let error = contact.residual(&one.x, &two.x, &[SVector::zeros(); 4], Some(&sums)).unwrap_err();

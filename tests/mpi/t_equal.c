@@ -7,6 +7,7 @@
 enum { STEPS = 4 };
 
 #define DUAL {.multiplier_basis = STICKSLIP_BASIS_DUAL}
+#define POINTS {.decision = STICKSLIP_DECISION_POINTS}
 #define STANDARD {.multiplier_basis = STICKSLIP_BASIS_STANDARD}
 static const scene SCENES[] = {
   {"dual", {QUAD4, QUAD4}, {0}, {.mu = 0.3}, 1},
@@ -21,6 +22,8 @@ static const scene SCENES[] = {
   {"counted from 1", {QUAD4, QUAD4}, STANDARD, {.mu = 0.3, .index_base = 1}, 1},
   {"triangles with mid nodes", {TRI6, TRI6}, {0}, {.mu = 0.3}, 1},
   {"eight nodes on nine", {QUAD8, QUAD9}, {0}, {.mu = 0.3}, 1},
+  {"points that decide", {QUAD4, TRI3}, POINTS, {.friction = STICKSLIP_FRICTION_NONE}, 1},
+  {"points, mid nodes", {TRI6, QUAD8}, POINTS, {.friction = STICKSLIP_FRICTION_NONE}, 1},
   {"lines", {LINE2, LINE2}, {0}, {.mu = 0.3, .model = STICKSLIP_MODEL_PLANE}, 1},
   {"lines with mid nodes", {LINE3, LINE3}, {0}, {.mu = 0.3, .model = STICKSLIP_MODEL_PLANE}, 1},
 };

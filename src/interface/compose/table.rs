@@ -123,10 +123,7 @@ rows! {
     Meaningless [MortarOffsets Analytic] "it has no nodes; move or resize the shape" [MortarOffsets];
     NotBuilt [Offsets Conserving] "" [Conserving];
     NotBuilt [Layer Conserving] "" [Conserving];
-    NotBuilt [OwnLaw Conserving] "" [Conserving];
-    NotBuilt [Orthotropic Conserving] "" [Conserving];
     NotBuilt [Shared Conserving] "forces follow the gaps of all handles" [Shared];
-    NotBuilt [Points Elsewhere] "tractions of a facet need the gaps of all of its nodes" [Points];
     NotBuilt [Points Shared] "tractions of a facet need the gaps of all of its nodes" [Points];
     NotBuilt [NodeHistory Points Friction] "what points remember is not in it" [NodeHistory];
     // What is asked.

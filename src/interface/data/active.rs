@@ -71,6 +71,12 @@ impl Active {
         self.pairs.store(pair)
     }
 
+    /// Puts the pairs of parents in their order.
+    #[inline(never)] // sorting is large
+    pub fn order_parents(&mut self) {
+        self.parents.sort_unstable_by_key(|pair| (pair.one, pair.two));
+    }
+
     /// Adds what a pair of parts has to the pair of their parents `one` and `two`; those of `one` alone are the last ones.
     /// `rows`: which of the nodes of `one` the rows of the weights are. Gives what is covered of each of them, as a pair of parts
     /// keeps it.

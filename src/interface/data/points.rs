@@ -1,5 +1,6 @@
 //! Where points decide: what a step knows of the facets that have pairs, and the closed part of each pair (docs/formulation 16).
 
+use super::node_data::NodeData;
 use super::point_friction::PointFriction;
 use crate::geometry::Vec3;
 use crate::mortar::{PairWeights, SubWeights};
@@ -37,6 +38,11 @@ impl PointFacet {
     /// Its nodes.
     pub fn nodes(&self) -> &[usize] {
         &self.nodes[..self.n]
+    }
+
+    /// Whether its forces are of this part of the interface: where its first node acts.
+    pub fn is_here(&self, nodes: &NodeData) -> bool {
+        nodes.acts(self.nodes[0])
     }
 
     /// The places of its pairs.

@@ -56,7 +56,7 @@ pub fn again(
     });
     (active.x1, active.x2, active.normals) = (x1, x2, normals);
     added?;
-    active.parents.sort_unstable_by_key(|pair| (pair.one, pair.two));
+    active.order_parents();
     if options.basis == MultiplierBasis::Dual && one.parents.is_some() {
         dual_parents(one, active)?;
     }

@@ -121,7 +121,7 @@ pub fn sums(known: &Conserving, sums: &mut Vec<NodeSums>) -> Result<()> {
         sums.store(NodeSums {
             coverage,
             gap_now: mean.normal * force.above,
-            coverage_previous: coverage,
+            coverage_previous: if coverage > 0.0 { mean.coverage } else { 0.0 },
             gap_previous: slip,
             gap_committed: Vec3::zeros(),
         })?;

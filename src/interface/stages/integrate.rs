@@ -90,9 +90,7 @@ fn by_facets(
     }
     active.normals = normals;
     active.knows_excluded = true;
-    for of_one in active.parents.chunk_by_mut(|p, q| p.one == q.one) {
-        of_one.sort_unstable_by_key(|pair| pair.two);
-    }
+    active.order_parents();
     Ok(())
 }
 

@@ -11,6 +11,7 @@ use crate::law::{
     Layer, LayerAnswer, LayerQuestion, Node, NodeResponse, Own, Question, Special, State, Told, Turn, trial,
 };
 use crate::memory;
+use nalgebra::SVector;
 
 /// At which normal traction a threshold is wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,6 +80,19 @@ impl OwnAnswers {
             return (law.turn)(&node);
         };
         answer.turn(law, &node, &Node { special, ..answer.inner(&node) })
+    }
+
+    /// How that answer changes with the area that slip is counted over, at the same sum of the slip [L].
+    pub fn drow_darea<const N: usize>(
+        &self,
+        given: Given<N>,
+        (a, node): (usize, Node<N>),
+        (response, area): (&NodeResponse<N>, f64),
+    ) -> SVector<f64, N> {
+        let Some(Special::Told(told)) = self.specials.get(a) else { return SVector::zeros() };
+        let special = Special::Told(Told { slope: Vec3::zeros(), ..*told });
+        let held = (given.setup.effects.law.respond)(&Node { special, ..node });
+        (held.drow_dprevious - response.drow_dprevious) * node.gap_previous / area
     }
 
     /// By how much the surfaces give way at node A: see [`LayerAnswer::yields`].

@@ -146,7 +146,7 @@ pub fn dual_parts(surfaces: (&Surface, &Surface), options: &Options, active: &mu
         }
         Ok(())
     });
-    active.parents.sort_unstable_by_key(|pair| (pair.one, pair.two));
+    active.order_parents();
     (active.pairs, active.normals, active.x1, active.x2) = (pairs, planes, x1, x2);
     done
 }

@@ -223,11 +223,13 @@ impl Points {
         let two = &given.setup.mortar;
         r.clear(given.setup.surfaces())?;
         if self.has_parts {
-            self.add_pushes(given.setup.surfaces(), (&mut r.nonmortar, &mut r.mortar));
+            let of = (given.setup.surfaces(), &given.setup.nodes);
+            self.add_pushes(of, (&mut r.nonmortar, &mut r.mortar));
             r.take_rows(given, responses);
             return Ok(());
         }
-        for (facet, forces) in self.facets.iter().zip(&self.friction.forces) {
+        let here = self.facets.iter().zip(&self.friction.forces).filter(|(facet, _)| facet.is_here(&given.setup.nodes));
+        for (facet, forces) in here {
             facet.nodes().iter().zip(forces).for_each(|(&a, force)| r.nonmortar[a] += force);
             for place in facet.places() {
                 let other = two.host_nodes(self.pairs[place].two).iter().zip(&self.friction.opposite[place]);

@@ -7,6 +7,7 @@ use super::part_weights::{PartWeights, PartsAt, WHOLE, sums, weigh};
 use crate::dual::Coverage;
 use crate::error::Result;
 use crate::geometry::{Facet, Vec3};
+use crate::interface::data::node_data::NodeData;
 use crate::interface::data::options::Options;
 use crate::interface::data::pairs::PairRecord;
 use crate::interface::data::points::{OfNodes, PointFacet, PointPair, Points, Push, add_mass};
@@ -127,8 +128,12 @@ impl Points {
 
     /// Adds the forces on all nodes of both sides.
     #[inline(never)]
-    pub(super) fn add_pushes(&self, (one, two): (&Surface, &Surface), forces: (&mut [Vec3], &mut [Vec3])) {
-        for facet in &self.facets {
+    pub(super) fn add_pushes(
+        &self,
+        ((one, two), nodes): ((&Surface, &Surface), &NodeData),
+        forces: (&mut [Vec3], &mut [Vec3]),
+    ) {
+        for facet in self.facets.iter().filter(|facet| facet.is_here(nodes)) {
             let own = one.host_nodes(one.host_facet(facet.one));
             for (place, push) in facet.places().zip(&self.pushes[facet.places()]) {
                 own.iter().zip(&push[0]).for_each(|(&b, force)| forces.0[b] += force);

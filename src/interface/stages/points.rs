@@ -377,12 +377,13 @@ impl Points {
         let two = &given.setup.mortar;
         r.clear(given.setup.surfaces())?;
         if self.has_parts {
-            self.add_pushes(given.setup.surfaces(), (&mut r.nonmortar, &mut r.mortar));
+            let of = (given.setup.surfaces(), &given.setup.nodes);
+            self.add_pushes(of, (&mut r.nonmortar, &mut r.mortar));
             r.take_rows(given, responses);
             return Ok(());
         }
         for (at, facet) in self.facets.iter().enumerate() {
-            if self.states[at] == Closed::Nothing {
+            if self.states[at] == Closed::Nothing || !facet.is_here(&given.setup.nodes) {
                 continue;
             }
             let sigma = facet.of(&self.sigma);

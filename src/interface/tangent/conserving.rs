@@ -158,9 +158,11 @@ impl<const N: usize> NodeBlocks<N> {
         }
         let by_slip = response.drow_dprevious * scale;
         let asked = node(given, a, *lambda, &numbers.sums[a])?;
+        let by_area = responses.own.drow_darea(given, (a, asked), (response, mean.coverage)) * scale;
         let by_normal = responses.own.turn(given, a, asked).drow_dnormal * scale + by_gap * force.above;
         for on in &mean.nodes {
-            self.add_row(on.node, by_normal * mean.turned(on) * 0.5 + by_slip * on.weight);
+            let by_place = by_normal * mean.turned(on) + by_area * on.area.transpose();
+            self.add_row(on.node, by_place * 0.5 + by_slip * on.weight);
         }
         for &(k, by, slope) in numbers.slopes.get(a).map_or(&[][..], |slopes| slopes) {
             if let Some(at) = mean.nodes.iter().position(|on| on.node == k) {

@@ -73,6 +73,12 @@ pub struct RowBlocks<'a> {
 pub type Weights = [f64; MAX_PARENT_NODES];
 pub type Directions = [Vec3; MAX_PARENT_NODES];
 
+/// Puts columns, each with the index of its block, in the order of [`Blocks::row`].
+#[inline(never)] // sorting is large
+pub fn put_in_order(columns: &mut [(usize, Place)], order: &dyn Fn(Place) -> u32) {
+    columns.sort_unstable_by_key(|(k, place)| (order(*place), *k));
+}
+
 /// Takes the blocks of a tangent. Blocks of the same rows and columns add up.
 pub trait Blocks<const N: usize> {
     /// The blocks of this non-mortar facet follow.

@@ -2,7 +2,7 @@
 //! Its parts are linearised one by one; what they add is summed up over the facet's nodes and then leaves node by node.
 
 use super::derivatives::PairDerivatives;
-use super::emission::{Blocks, Emitter, NodeBlock, Place};
+use super::emission::{Blocks, Emitter, NodeBlock, Place, put_in_order};
 use super::fields::Fields;
 use super::frame::{self, FrameBlocks};
 use super::lines::add_lines;
@@ -389,8 +389,7 @@ impl Columns {
         taker: &dyn Blocks<N>,
     ) -> Result<()> {
         [&mut self.all, &mut self.active, &mut self.multipliers].into_iter().for_each(Vec::clear);
-        let order =
-            |columns: &mut [(usize, Place)]| columns.sort_unstable_by_key(|(k, place)| (taker.order(*place), *k));
+        let order = |columns: &mut [(usize, Place)]| put_in_order(columns, &|place| taker.order(place));
         self.multipliers.store_all(multipliers.map(|(k, &a)| (k, Place::Multiplier(a))))?;
         order(&mut self.multipliers);
         for (k, node, acts) in displacements {

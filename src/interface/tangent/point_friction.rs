@@ -54,6 +54,7 @@ impl<const N: usize> point_rows::Found<N> for Found {
         for at in rows.around.at(k) {
             let (facet, is_open) = (&points.facets[at], points.states[at] == Closed::Nothing);
             let (mut sums, of_points) = (OfFacet::default(), friction.of_pairs(facet.places()));
+            let is_here = facet.is_here(&rows.given.setup.nodes);
             let row = facet.nodes().iter().position(|&b| b == i).filter(|_| points.is_covered[i]);
             if !is_open {
                 add(&mut sums, friction, of_points.clone(), (0, place));
@@ -73,7 +74,7 @@ impl<const N: usize> point_rows::Found<N> for Found {
                     found.left += (normal + own.along * node.along) * left;
                 }
                 if points.is_covered[a] && !is_open {
-                    found.force += of_sigma(&sums[l], facet, node);
+                    found.force += if is_here { of_sigma(&sums[l], facet, node) } else { Mat3::zeros() };
                     if row.is_some() {
                         let (e, force) = (facet.normal, of_sigma(&of_row[l], facet, node));
                         let pressure = e.dot(&(of_row[l] * e));
@@ -94,14 +95,14 @@ impl<const N: usize> point_rows::Found<N> for Found {
         let (one, two) = rows.given.setup.surfaces();
         for at in rows.around.at(k).filter(|at| points.states[*at] != Closed::Nothing) {
             let (facet, friction, mut sums) = (&points.facets[at], &points.friction, OfFacet::default());
-            let mut is_there = false;
+            let (mut is_there, is_here) = (false, facet.is_here(&rows.given.setup.nodes));
             for place in facet.places() {
                 let nodes = two.host_nodes(points.pairs[place].two);
                 let Some(column) = nodes.iter().position(|&d| d == c) else { continue };
                 is_there = true;
                 add(&mut sums, friction, friction.of_pair(place), (1, column));
             }
-            for (&a, sum) in facet.nodes().iter().zip(&sums).filter(|_| is_there) {
+            for (&a, sum) in facet.nodes().iter().zip(&sums).filter(|_| is_there && is_here) {
                 if points.is_covered[a] && one.has_row(a) {
                     rows.at(a)?.force -= of_sigma(sum, facet, &friction.nodes[a]);
                 }

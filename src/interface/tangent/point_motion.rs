@@ -3,7 +3,7 @@
 //! lambda_A, which the sums over nodes (`points.rs`) take in place of weights that are held.
 
 use super::around::Around;
-use super::emission::{Emitter, NodeBlock, Place};
+use super::emission::{Emitter, NodeBlock, Place, put_in_order};
 use super::point_numbers::PointNumbers;
 use super::point_offsets::RaisedFacet;
 use crate::dual::{DualBasis, whole_area_derivative};
@@ -79,7 +79,6 @@ pub struct Table {
     other: Vec<f64>,
     other_by: Vec<[f64; 3]>,
     overlaps: FacetOverlaps,
-    places: Vec<(u32, usize, Place)>,
     order: Vec<(usize, Place)>,
     blocks: Vec<NodeBlock>,
 }
@@ -339,12 +338,10 @@ impl Table {
             true => Place::Displacement(facet.nodes[k]),
             false => Place::Displacement(one.len() + mortar[k - facet.n] as usize),
         };
-        let Table { columns, other, other_by, places, order, blocks, .. } = self;
-        places.clear();
-        places.store_all((0..n).map(|k| (emitter.taker.order(place(k)), k, place(k))))?;
-        places.sort_unstable_by_key(|(order, ..)| *order);
+        let Table { columns, other, other_by, order, blocks, .. } = self;
         order.clear();
-        order.store_all(places.iter().map(|&(_, k, place)| (k, place)))?;
+        order.store_all((0..n).map(|k| (k, place(k))))?;
+        put_in_order(order, &|place| emitter.taker.order(place));
         let (sigma, forces) = (points.acting(at), points.forces[at]);
         for pair in facet.places() {
             let Some(closed) = points.closed(at, pair) else { break };
@@ -354,7 +351,7 @@ impl Table {
                 }
             }
         }
-        for row in 0..n {
+        for row in (0..n).filter(|_| facet.is_here(&given.setup.nodes)) {
             let force = if row < facet.n { forces[row] } else { other[row - facet.n] };
             let by = |column: usize, j: usize| match row < facet.n {
                 true => columns[column][j].forces[row],

@@ -43,6 +43,7 @@ impl<const N: usize> point_rows::Found<N> for Found {
             let row = facet.nodes().iter().position(|&b| b == i);
             let row_if_covered = row.filter(|_| points.is_covered[i]);
             let is_open = points.states[at] == Closed::Nothing;
+            let is_here = facet.is_here(&rows.given.setup.nodes);
             let mass = points.states[at].mass(facet, &points.closed, &mut room);
             let one = &rows.given.setup.nonmortar;
             match (points.has_parts, row) {
@@ -62,7 +63,7 @@ impl<const N: usize> point_rows::Found<N> for Found {
                     found.left += facet.mass[row][l] + points.factors[i] * facet.stabilisation[row][l];
                 }
                 if points.is_covered[a] && !is_open {
-                    let force = facet.normal * all[l];
+                    let force = facet.normal * if is_here { all[l] } else { 0.0 };
                     (0..3).for_each(|n| found.acts[n] += force[n]);
                     found.acts[3] += row_if_covered.map_or(0.0, |row| mass[row][l]);
                 }
@@ -80,6 +81,9 @@ impl<const N: usize> point_rows::Found<N> for Found {
         let (one, two) = rows.given.setup.surfaces();
         for at in rows.around.at(k) {
             let facet = &points.facets[at];
+            if !facet.is_here(&rows.given.setup.nodes) {
+                continue;
+            }
             let (mut weights, mut is_there) = ([0.0; MAX_CORNERS], false);
             for pair in facet.places() {
                 let Some(closed) = points.closed(at, pair) else { break };

@@ -8,7 +8,7 @@
 //!   w (nu_B . dc_B/dg) g_A . Dnu_A, for it runs along nu_A; else its offset, w (dc_B/dg) T_AB o_A Dnu_A.
 
 use super::augmented::NodeCouplings;
-use super::emission::{Emitter, NodeBlock, Place, Span};
+use super::emission::{Emitter, NodeBlock, Place, Span, put_in_order};
 use super::read::square;
 use super::union::{Pairs, UnionPair, Walk};
 use crate::error::Result;
@@ -281,7 +281,7 @@ fn lone_parent<const N: usize>(f: usize, turns: Option<&Turns<N>>, emitter: &mut
     let mut columns = [(0, Place::Displacement(0)); MAX_PARENT_NODES];
     columns.iter_mut().zip(nodes).enumerate().for_each(|(k, (to, &node))| *to = (k, Place::Displacement(node)));
     let columns = &mut columns[..nodes.len()];
-    columns.sort_unstable_by_key(|(k, place)| (emitter.taker.order(*place), *k));
+    put_in_order(columns, &|place| emitter.taker.order(place));
     for (k, &a) in nodes.iter().enumerate().take(one.multipliers(f)) {
         let mut row = [NodeBlock::default(); MAX_PARENT_NODES];
         if let Some(turns) = turns {

@@ -40,6 +40,9 @@ const PLAN: f64 = 1e-12;
 /// A residual somewhere else, over the largest force or row: rounding of positions, over gaps of a thousandth of them.
 const ELSEWHERE: f64 = 1e-9;
 
+/// Parts together against one handle of the whole: other orders of sums.
+const PARTS: f64 = 1e-9;
+
 /// Numbers that make all parts of the law act.
 const CONDUCTANCE: Conductance = Conductance {
     contact: 3.0,
@@ -139,10 +142,17 @@ where
 {
     let (scene, mut found) = (Scene::new(choice), Found::default());
     let mut handles = Handles::<N>::new(&scene)?;
+    let undivided = Scene::new(choice.set("ranks", "one"));
+    let mut whole = if choice.is("ranks", "parts") { Some(Handles::<N>::new(&undivided)?) } else { None };
     for step in 0..2 {
         let at = scene.at::<N>(step);
         let before = when(Asked::Residual, handles.residual(&at))?;
         balance(&scene, &at, &before, &mut found);
+        if let Some(whole) = &mut whole {
+            let of_whole = when(Asked::Residual, whole.residual(&at))?;
+            equal(&at, (&before, &of_whole), (PARTS, "of parts"), &mut found);
+            when(Asked::Residual, whole.commit(&at))?;
+        }
         if step == 0 {
             elsewhere(&scene, &at, &before, &mut found)?;
         }
@@ -206,15 +216,20 @@ where
     let moved = |x: &[Vec3]| x.iter().map(|x| x + by).collect();
     let at = At { x1: moved(&at.x1), x2: moved(&at.x2), lambda: at.lambda.clone() };
     let r = when(Asked::Residual, Handles::<N>::new(&scene)?.residual(&at))?;
+    equal(&at, (&r, before), (ELSEWHERE, "where everything is moved"), found);
+    Ok(())
+}
+
+/// Forces and rows, each over the largest.
+fn equal<const N: usize>(at: &At<N>, (r, expected): (&[f64], &[f64]), (bound, which): (f64, &str), found: &mut Found) {
     let rows = 3 * (at.x1.len() + at.x2.len());
     for (what, range) in [("forces", 0..rows), ("rows", rows..r.len())] {
-        let (r, before) = (&r[range.clone()], &before[range]);
-        let off = max_abs(r.iter().zip(before).map(|(a, b)| a - b)) / max_abs(before.iter().copied()).max(NOTHING);
-        if !(off <= ELSEWHERE) {
-            found.wrong(format!("{what} are off by {off:.1e} where everything is moved by {by:?}"));
+        let (r, expected) = (&r[range.clone()], &expected[range]);
+        let off = max_abs(r.iter().zip(expected).map(|(a, b)| a - b)) / max_abs(expected.iter().copied()).max(NOTHING);
+        if !(off <= bound) {
+            found.wrong(format!("{what} are off by {off:.1e} {which}"));
         }
     }
-    Ok(())
 }
 
 fn tangents<const N: usize>(system: &mut System<N>, found: &mut Found, step: usize) -> Result<(), Refused>

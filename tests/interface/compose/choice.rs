@@ -67,7 +67,7 @@ impl Choice {
         self.of(kind) == value
     }
 
-    fn set(self, kind: &str, value: &str) -> Choice {
+    pub fn set(self, kind: &str, value: &str) -> Choice {
         let kind = Choice::kind(kind);
         self.with(kind, DIMENSIONS[kind].1.iter().position(|v| *v == value).unwrap())
     }
