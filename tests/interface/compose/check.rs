@@ -9,6 +9,7 @@ use super::system::{Direction, Grouped, System};
 use crate::support::differences::Point;
 use crate::support::max_abs;
 use crate::support::mesh::{Create, Random};
+use nalgebra::SVector;
 use stickslip::geometry::Vec3;
 use stickslip::interface::{Contact, Temperatures};
 use stickslip::law::Conductance;
@@ -207,16 +208,23 @@ fn balance<const N: usize>(scene: &Scene, at: &At<N>, r: &[f64], found: &mut Fou
     }
 }
 
-/// Where everything is moved, forces and rows stay.
+/// Where everything is turned and shifted, forces and rows are turned.
 fn elsewhere<const N: usize>(scene: &Scene, at: &At<N>, before: &[f64], found: &mut Found) -> Result<(), Refused>
 where
     Contact<N>: Create<N> + TakesLaw,
 {
-    let (scene, by) = scene.elsewhere();
-    let moved = |x: &[Vec3]| x.iter().map(|x| x + by).collect();
-    let at = At { x1: moved(&at.x1), x2: moved(&at.x2), lambda: at.lambda.clone() };
+    let (scene, turn, by) = scene.elsewhere();
+    let moved = |x: &[Vec3]| x.iter().map(|x| turn * x + by).collect();
+    let turned = |v: &[f64]| match v.len() {
+        3 => (turn * Vec3::from_column_slice(v)).as_slice().to_vec(),
+        _ => v.to_vec(),
+    };
+    let of_node = |lambda: &SVector<f64, N>| SVector::from_column_slice(&turned(lambda.as_slice()));
+    let at = At { x1: moved(&at.x1), x2: moved(&at.x2), lambda: at.lambda.iter().map(of_node).collect() };
     let r = when(Asked::Residual, Handles::<N>::new(&scene)?.residual(&at))?;
-    equal(&at, (&r, before), (ELSEWHERE, "where everything is moved"), found);
+    let (forces, rows) = before.split_at(3 * (at.x1.len() + at.x2.len()));
+    let before: Vec<f64> = forces.chunks_exact(3).chain(rows.chunks_exact(N)).flat_map(turned).collect();
+    equal(&at, (&r, &before), (ELSEWHERE, "where everything is moved"), found);
     Ok(())
 }
 

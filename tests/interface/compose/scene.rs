@@ -125,17 +125,24 @@ impl Scene {
         Scene { choice, one, two, has_row }
     }
 
-    /// The same somewhere else: along the axis of axisymmetric models, anywhere of others.
-    pub fn elsewhere(&self) -> (Scene, Vec3) {
+    /// The same somewhere else, turned and then shifted: along the axis alone in axisymmetric models, and not turned where directions are
+    /// given in space.
+    pub fn elsewhere(&self) -> (Scene, Rotation3<f64>, Vec3) {
         let by = match (self.choice.is_axisymmetric(), self.choice.has_lines()) {
             (true, _) => Vec3::new(0.0, -1.3, 0.0),
             (_, true) => Vec3::new(0.7, -1.3, 0.0),
             _ => Vec3::new(0.7, -1.3, 0.4),
         };
-        let moved = |mesh: &Mesh| Mesh { x: mesh.x.iter().map(|x| x + by).collect(), facets: mesh.facets.clone() };
+        let has_directions = self.choice.is("law", "orthotropic") || !self.choice.is("extra", "no");
+        let turn = match has_directions || self.choice.is_axisymmetric() {
+            true => Rotation3::identity(),
+            false => self.rotation(Vec3::new(0.8, -0.5, 1.1)),
+        };
+        let moved =
+            |mesh: &Mesh| Mesh { x: mesh.x.iter().map(|x| turn * x + by).collect(), facets: mesh.facets.clone() };
         let scene =
             Scene { choice: self.choice, one: moved(&self.one), two: moved(&self.two), has_row: self.has_row.clone() };
-        (scene, by)
+        (scene, turn, by)
     }
 
     pub fn down(&self) -> Vec3 {
