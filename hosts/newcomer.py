@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What the documents tell a new user to type, typed in an empty place, with the time that it takes.
 
-    newcomer.py --wheels FOLDER --out FOLDER [python|deal.II|MFEM|Fortran ...]
+    newcomer.py --wheels FOLDER --out FOLDER [python|program|deal.II|MFEM|Fortran ...]
 
 The commands are read from the documents, so one that has gone wrong is found. What is committed is cloned to OUT; the home folder
 is empty but for cargo's. What the documents ask apt for has to be there. `make newcomer` makes the wheel and runs all.
@@ -78,6 +78,23 @@ def python(wheels, out):
     expect(seconds < PICTURE, f"python: {seconds:.0f} s, below {PICTURE}")
 
 
+def program(wheels, out):
+    """The command of the wheel, with a compiler and PETSc of the machine."""
+    place = out / "program"
+    place.mkdir()
+    shutil.copy(next(wheels.iterdir()), place)
+    shutil.copy(ROOT / "c_examples" / "scenes" / "two_blocks.yaml", place / "scene.yaml")
+    start = time.monotonic()
+    subprocess.run([sys.executable, "-m", "venv", place / "environment"], check=True)
+    tools = f"{place / 'environment' / 'bin'}:{os.environ['PATH']}"
+    install = blocks(ROOT / "python" / "README.md")[0].splitlines()[0]
+    solve = next(block for block in blocks(ROOT / "python" / "README.md") if block.startswith("stickslip "))
+    _, printed = typed(f"{install}\n{solve}", place, PATH=tools, HOME=str(place), XDG_CACHE_HOME=str(place / "cache"))
+    seconds = time.monotonic() - start
+    expect((place / "scene_results" / "summary.json").stat().st_size > 0, f"a scene: {printed.strip().splitlines()[-1]}")
+    expect(seconds < PICTURE, f"program: {seconds:.0f} s, below {PICTURE}")
+
+
 class Checkout:
     """What is committed, and the library that was installed from it as hosts/README.md says."""
 
@@ -143,7 +160,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--wheels", required=True, type=Path)
     parser.add_argument("--out", required=True, type=Path)
-    parser.add_argument("names", nargs="*", default=["python", "deal.II", "MFEM", "Fortran"])
+    parser.add_argument("names", nargs="*", default=["python", "program", "deal.II", "MFEM", "Fortran"])
     arguments = parser.parse_args()
     out = arguments.out.resolve()
     shutil.rmtree(out, ignore_errors=True)
@@ -152,6 +169,9 @@ def main():
     for name in arguments.names:
         if name == "python":
             python(arguments.wheels.resolve(), out)
+            continue
+        if name == "program":
+            program(arguments.wheels.resolve(), out)
             continue
         checkout = checkout or Checkout(out)
         if name == "Fortran":

@@ -27,7 +27,7 @@ def shared_library(checkout: Path) -> Path:
 
 
 class StickslipHook(BuildHookInterface):
-    """Puts libstickslip.so, _abi.py and the header into the wheel, and names its platform."""
+    """Puts libstickslip.so, _abi.py, the header and the program's sources into the wheel, and names its platform."""
 
     def initialize(self, version, build_data):
         sys.path.insert(0, str(HERE / "src" / "stickslip"))
@@ -43,6 +43,11 @@ class StickslipHook(BuildHookInterface):
         build_data["force_include"][str(library)] = "stickslip/libstickslip.so"
         build_data["force_include"][str(made / "_abi.py")] = "stickslip/_abi.py"
         build_data["force_include"][str(CHECKOUT / "include" / "stickslip.h")] = "stickslip/stickslip.h"
+        sources = CHECKOUT / "program"
+        for path in sorted(sources.rglob("*.[ch]")):
+            within = path.relative_to(sources)
+            if "tests" not in within.parts:
+                build_data["force_include"][str(path)] = f"stickslip/program/{within}"
         platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
         build_data["tag"] = f"py3-none-{platform}"
         build_data["pure_python"] = False

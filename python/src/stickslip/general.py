@@ -132,7 +132,7 @@ class Skin(Handle):
         """Of each copy what :meth:`stickslip.Interface.states` says; 0 where nothing can touch it. Call it before the commit."""
         out, arrays, _kept = room_for_states(self.equations.shape)
         self._call("skin_states", *self._point(x, lam), out)
-        return States(**arrays, bearing=(self.equations >= 0).any(axis=1))
+        return States(**arrays, bearing=np.any(self.equations >= 0, axis=1))
 
     def equilibrium(self, x: ArrayLike, lam: ArrayLike, *, modulus: float = 0.0, least_traction: float = 0.0) -> Equilibrium:
         """How far the point is from equilibrium; its nodes are copies."""

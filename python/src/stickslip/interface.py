@@ -61,7 +61,7 @@ class Interface(Heats, Inspection, Laws, Sensitivities, Handle):
         if numbers is None or numbers.size != int(np.prod(self._shape_multipliers)):
             found = None if numbers is None else numbers.shape
             raise ValueError(f"multiplier_equations of nonmortar: {found}, {self._shape_multipliers} is needed")
-        self._bearing = (numbers.reshape(self.n1, -1) >= 0).any(axis=1)
+        self._bearing = np.any(numbers.reshape(self.n1, -1) >= 0, axis=1)
         slot = ffi.new("struct stickslip_interface **")
         call("interface_create", first, second, made, slot)
         del kept_first, kept_second
