@@ -1,5 +1,7 @@
 """Contact on the host's vectors: what it adds, its derivative, several interfaces, mid nodes, condensed, maps, commits."""
 
+import re
+
 import numpy as np
 import pytest
 import scipy.sparse
@@ -355,6 +357,12 @@ def test_what_is_wrong_is_told(blocks):
     with pytest.raises(stickslip.Error, match=r"^r: shape"):
         contact.add_residual(x, np.zeros(blocks.X.size))
     assert "16 are covered in full" in contact.report()
+    pressed, _ = blocks.solve(contact, GRIP)
+    told, state = contact.report(pressed), contact.states(pressed)[0]
+    forces = [np.array(words.split(", "), float) for words in re.findall(r"The force of contact on the \w+ side is \((.*)\)", told)]
+    force1, force2, _ = contact.interfaces[0].residual(*contact._points(pressed)[0][1])
+    np.testing.assert_allclose(forces, [-force1.sum(axis=0), -force2.sum(axis=0)], rtol=1e-3, atol=1e-12)  # four digits are told
+    assert f"16 nodes in contact, {state.count(stickslip.State.STICK)} stick and {state.count(stickslip.State.SLIP)} slip, " in told
     assert f"{blocks.X.size} unknowns of the host, 48 multipliers behind them; [<Interface: 9 facets of 16 nodes on 16 facets" in repr(contact)
     twice = blocks.contact().add(*blocks.facets, **blocks.options)
     assert f"Nodes {np.unique(blocks.facets[0]).tolist()} have multipliers in several interfaces" in twice.report()

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _chords
+from ._touching import force, pressing
 from .condensed import Condensed
 from .errors import InvalidSize, InvalidValue
 from .interface import Interface
@@ -181,8 +183,17 @@ class Pair:
         return [(self.equations1, self.equations2, states.count(State.GAP) < states.bearing.sum())]
 
     def report(self, point: tuple[Reals, ...], is_first: bool) -> str:
-        """What is covered, in sentences."""
-        return self.face.report(*point[:2]).text
+        """What is covered, in sentences; at the start what chords take, later what presses, and the forces on both sides."""
+        lines, states = [self.face.report(*point[:2]).text], self.face.states(*point)
+        if is_first:
+            if not self.face.has_offsets:
+                lines += _chords.told(states, (self.X1, self.facets1), (self.mortar.coordinates, self.mortar.rows()))
+            return "\n".join(lines)
+        nodes = pressing(states, np.flatnonzero(states.bearing))
+        lines.append(nodes[0].upper() + nodes[1:])
+        forces = self.face.residual(*point)[:2]
+        lines += [force(f"the {name} side", -side.sum(axis=0)) for name, side in zip(("first", "second"), forces)]
+        return "\n".join(lines)
 
     #: What an interface has as pairs does not change.
     missed = 0

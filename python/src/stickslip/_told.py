@@ -109,10 +109,9 @@ class Told:
         """The host's unknowns of all nodes that have multipliers."""
         return np.concatenate([pair.bearing() for pair in self._pairs])
 
-
     def report(self, x: Reals | None = None) -> str:
         """Which nodes are covered in the first configuration, or at ``x``, and what looks wrong, in sentences. Of general contact who may
-        touch whom in this step, and at ``x``, before its commit, who does, and with what force."""
+        touch whom in this step. At ``x`` of either who touches, and with what force."""
         told = [part.report(point, x is None) for part, point in self._evaluated(np.zeros(self.size) if x is None else x)]
         sides = [np.unique(part.nodes1) for part in self._parts if isinstance(part, Pair)]
         nodes, claims = np.unique(np.concatenate([*sides, []]), return_counts=True)

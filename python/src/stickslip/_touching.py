@@ -21,7 +21,7 @@ def told(found: dict[str, Any], facets: SkinFacets, point: tuple[States, Reals] 
         which = np.flatnonzero(bears & (np.minimum(own, other) == a) & (np.maximum(own, other) == b))
         who = f"Body {a} and itself" if a == b else f"Bodies {a} and {b}"
         line = f"{who}: {_many(len(which), 'facet')} within reach, the nearest {facets.distance[which].min():.3g} away"
-        lines.append(line + ("." if point is None else _pressing(point[0], np.unique(np.concatenate([rows[1][f] for f in which])))))
+        lines.append(line + ("." if point is None else f"; {pressing(point[0], np.unique(np.concatenate([rows[1][f] for f in which])))}"))
     lonely = sorted(set(own.tolist()) - set(own[facets.partner >= 0].tolist()))
     if lonely:
         lines.append(f"Nothing is within reach of {_listed(lonely)}.")
@@ -36,13 +36,19 @@ def told(found: dict[str, Any], facets: SkinFacets, point: tuple[States, Reals] 
     return "\n".join(lines)
 
 
-def _pressing(states: States, copies: Integers) -> str:
+def pressing(states: States, copies: Integers) -> str:
+    """What some nodes do."""
     state, pressure = states.state[copies], states.pressure[copies]
     closed = state != State.GAP
     if not closed.any():
-        return "; no node is in contact."
-    return (f"; {_many(int(closed.sum()), 'node')} in contact, {(state == State.STICK).sum()} stick and {(state == State.SLIP).sum()} slip, "
+        return "no node is in contact."
+    return (f"{_many(int(closed.sum()), 'node')} in contact, {(state == State.STICK).sum()} stick and {(state == State.SLIP).sum()} slip, "
             f"the largest pressure is {pressure[closed].max():.3g}.")
+
+
+def force(on: str, vector: Reals) -> str:
+    """A force on a body or a side; -0 is 0."""
+    return f"The force of contact on {on} is ({', '.join(f'{value + 0.0:.4g}' for value in vector)})."
 
 
 def _forces(body: Integers, forces: Reals, nodes: list[Integers]) -> list[str]:
@@ -52,9 +58,9 @@ def _forces(body: Integers, forces: Reals, nodes: list[Integers]) -> list[str]:
         of_node[nodes[f]] = body[f]
     told = []
     for number in np.unique(body):
-        force = forces[of_node == number].sum(axis=0)
-        if force.any():
-            told.append(f"The force of contact on body {number} is ({', '.join(f'{value:.4g}' for value in force)}).")
+        total = forces[of_node == number].sum(axis=0)
+        if total.any():
+            told.append(force(f"body {number}", total))
     return told
 
 

@@ -69,6 +69,7 @@ class Interface(Heats, Inspection, Laws, Sensitivities, Handle):
         law = _options.word("FRICTION", made.friction)
         self._text = f"{nonmortar} on {mortar}, {law}{f', mu {made.mu:g}' if made.mu else ''}"
         self._told = "no states yet"
+        self.has_offsets = False
 
     def __repr__(self) -> str:
         return f"<Interface: {self._text}; {'closed' if self._handle == ffi.NULL else self._told}>"
@@ -191,15 +192,19 @@ class Interface(Heats, Inspection, Laws, Sensitivities, Handle):
         offsets1 = None if offsets1 is None else given("offsets1", offsets1, (self.n1,))
         offsets2 = None if offsets2 is None else given("offsets2", offsets2, (self.n2,))
         self._call("set_offsets", pointer(offsets1), pointer(offsets2))
+        self.has_offsets = offsets1 is not None or offsets2 is not None
 
     def shape_offsets(self, side: str, shape: str, radius: float, point: ArrayLike,
                       direction: ArrayLike = (0.0, 0.0, 1.0)) -> Array:
         """Offsets that give the facets of one side, "nonmortar" or "mortar", the "sphere" or "cylinder" back that they stand for.
 
-        ``radius``: negative of a cavity; ``point``: the centre, or one of the axis; ``direction``: of the axis. See ``set_offsets``.
+        ``radius``: negative of a cavity; ``point``: the centre, or one of the axis, in the plane of two numbers; ``direction``: of the axis. See
+        ``set_offsets``.
         """
         number = value_of("side", "SIDE", side)
         out = np.empty(self.n2 if number else self.n1)
+        if self.dimension == 2 and np.shape(point) == (2,):
+            point = [*np.asarray(point), 0.0]
         place = pointer(given("point", point, (3,))), pointer(given("direction", direction, (3,)))
         self._call("shape_offsets", number, value_of("shape", "SHAPE", shape), float(radius), *place, pointer(out))
         return out

@@ -55,6 +55,10 @@ class Surface:
         facets = "lines" if self.dimension == 2 else "facets"
         return f"{len(self.facet_offsets) - 1} {facets} of {self.n_nodes} nodes"
 
+    def rows(self) -> list[Array]:
+        """The nodes of each facet."""
+        return np.split(self.facet_nodes, self.facet_offsets[1:-1]) if len(self.facet_offsets) > 1 else []
+
     def __repr__(self) -> str:
         return f"<Surface: {self}>"
 
