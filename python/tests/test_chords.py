@@ -22,10 +22,10 @@ def circle(n, radius, hole, layers=0):
     return X, quads[:, ::-1] if hole else quads
 
 
-def fitted(shaft, bore, layers=0, fit=FIT):
+def fitted(shaft, bore, layers=0, fit=FIT, friction="none"):
     """A shaft of some facets in a bore of some."""
     (x1, facets1), (x2, facets2) = circle(shaft, RADIUS + fit, False, layers), circle(bore, RADIUS, True, layers)
-    return stickslip.Contact(np.concatenate([x1, x2])).add(facets1, facets2 + len(x1), modulus=1.0, friction="none")
+    return stickslip.Contact(np.concatenate([x1, x2])).add(facets1, facets2 + len(x1), modulus=1.0, friction=friction)
 
 
 @pytest.mark.parametrize("layers", [0, 2])
@@ -50,6 +50,7 @@ def test_gaps_within_what_the_surfaces_rise_are_told(layers):
 def test_nothing_is_told_where_nothing_is_lost():
     assert "chords" not in fitted(24, 24).report() and "facets" not in fitted(24, 31, fit=-0.1).report()
     assert "facets" not in Blocks().contact().report()
+    assert "facets" not in fitted(24, 31, friction="tied").report()
     contact = fitted(24, 31)
     face = contact.interfaces[0]
     offsets = [face.shape_offsets(side, "cylinder", radius, (0, 0)) for side, radius in (("nonmortar", RADIUS + FIT), ("mortar", -RADIUS))]

@@ -98,6 +98,7 @@ class Pair:
             self.face.set_constraints(nodes, np.eye(dimension)[axes])
         self._turns = True
         self.use_normals("current")
+        self.tied = options.get("friction") == "tied"
         self.modulus = float(options.get("modulus", 0.0))
         #: The largest traction of the steps before.
         self.largest = 0.0
@@ -186,7 +187,7 @@ class Pair:
         """What is covered, in sentences; at the start what chords take, later what presses, and the forces on both sides."""
         lines, states = [self.face.report(*point[:2]).text], self.face.states(*point)
         if is_first:
-            if not self.face.has_offsets:
+            if not (self.tied or self.face.has_offsets):
                 lines += _chords.told(states, (self.X1, self.facets1), (self.mortar.coordinates, self.mortar.rows()))
             return "\n".join(lines)
         nodes = pressing(states, np.flatnonzero(states.bearing))
