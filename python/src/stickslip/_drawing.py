@@ -57,7 +57,7 @@ def _add(axes: Any, faces: list[Reals], solid: bool, array: Reals | None = None,
     from matplotlib.collections import LineCollection
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
+    paint: dict[str, Any] = {} if array is not None else {"facecolors": facecolors} if solid else {"colors": colors}
     if solid:
-        return axes.add_collection3d(Poly3DCollection(faces, array=array, edgecolors="0.3", linewidths=0.3,
-                                                      **({"facecolors": facecolors} if array is None else {})))
-    return axes.add_collection(LineCollection(faces, array=array, linewidths=4, **({"colors": colors} if array is None else {})))
+        return axes.add_collection3d(Poly3DCollection(faces, array=array, edgecolors="0.3", linewidths=0.3, **paint))
+    return axes.add_collection(LineCollection(faces, array=array, linewidths=4, **paint))
