@@ -293,7 +293,6 @@ def refused(cases):
         ("friction of what is no pair", falling(friction={"block.bas": 0.3}), "block.bas", {}),
         ("tied", falling(all={"law": "tied"}), "an interface of its own", {}),
         ("displacements alone", falling(unknowns="displacements"), "multipliers among the unknowns", {}),
-        ("dynamics", falling(dynamics={"rho_inf": 1}), "dynamics", {}),
         ("a key of sides", falling(all={"nonmortar": "block.ymin"}), "nonmortar", {}),
         ("heat", {**falling(), **WARM}, "no heat passes", {}),
     ):
