@@ -64,7 +64,8 @@ static void make(box *b, int64_t n, int64_t first, int64_t *nodes) {
   }
 }
 
-static int64_t n_nodes, n_facets, n_copies, pair_capacity, skin_capacity, face_nodes[2], *offsets, *nodes, *equations, *bodies, *originals, *of_side[2];
+static int64_t n_nodes, n_facets, n_copies, pair_capacity, skin_capacity, face_nodes[2];
+static int64_t *offsets, *nodes, *equations, *bodies, *originals, *of_side[2];
 static double *X, *x[2], *lambda, *force, *rows, *values, *face_x[2][2], *face_lambda, *face_force[2], *face_rows;
 static stickslip_skin *skin;
 static stickslip_interface *pair;
@@ -214,15 +215,18 @@ int main(int argc, char **argv) {
     for (int k = 0; k < 4; ++k) least[k] = fmin(least[k], time_of(calls[k], pass % 2));
   }
   const double difference = apart();
-  printf("%lld facets on %lld nodes; entries of the skin's plan over the pair's %.3f; forces differ by %.1e\n", (long long)n_facets, (long long)n_nodes,
+  printf("%lld facets on %lld nodes; entries of the skin's plan over the pair's %.3f; forces differ by %.1e\n",
+      (long long)n_facets, (long long)n_nodes,
       (double)skin_capacity / (double)pair_capacity, difference);
-  printf("residual: skin %.3f ms, pair %.3f ms, ratio %.3f\nvalues:   skin %.3f ms, pair %.3f ms, ratio %.3f\n", least[0], least[1], least[0] / least[1],
+  printf("residual: skin %.3f ms, pair %.3f ms, ratio %.3f\nvalues:   skin %.3f ms, pair %.3f ms, ratio %.3f\n",
+      least[0], least[1], least[0] / least[1],
       least[2], least[3], least[2] / least[3]);
   printf("both:     ratio %.3f\n", (least[0] + least[2]) / (least[1] + least[3]));
   for (int pass = 0; pass < PASSES; ++pass) {
     for (int k = 4; k < 6; ++k) least[k] = fmin(least[k], time_of(calls[k], pass % 2));
   }
-  printf("commit:   skin %.3f ms, pair %.3f ms: search, sides and pieces take %.2f us a facet\n", least[4], least[5], 1e3 * (least[4] - least[5]) / (double)n_facets);
+  printf("commit:   skin %.3f ms, pair %.3f ms: search, sides and pieces take %.2f us a facet\n",
+      least[4], least[5], 1e3 * (least[4] - least[5]) / (double)n_facets);
   stickslip_skin_destroy(&skin);
   stickslip_interface_destroy(&pair);
   return difference < SAME ? 0 : 1;

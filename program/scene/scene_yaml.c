@@ -103,8 +103,10 @@ static PetscErrorCode insert(Scene *scene, const char *file)
   full = PetscOptionsInsertFileYAML(PETSC_COMM_WORLD, NULL, file, PETSC_TRUE);
   PetscCall(PetscPopErrorHandler());
   if (full == PETSC_ERR_MEM)
-    scene_fail(scene, NULL, NULL, "its %d keys are more than PETSc's table of options has room for. Bodies of one material can be one mesh: in a Gmsh "
-                                  "file they need not hang together.", (int)scene->n_keys);
+    scene_fail(scene, NULL, NULL,
+               "its %d keys are more than PETSc's table of options has room for. Bodies of one material can be one mesh: in a Gmsh file they "
+               "need not hang together.",
+               (int)scene->n_keys);
   PetscCall(full);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
