@@ -324,7 +324,7 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact)
       PetscCall(skin_read(scene, contact, interface));
       read_method(scene, interface);
       interface->lag_corrects = PETSC_FALSE;
-      PetscCallStickslip(stickslip_options_method(&interface->options, &interface->method));
+      PetscCall(conserving_choose(contact, interface));
       read_accuracy(scene, interface);
       continue;
     }

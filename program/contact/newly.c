@@ -74,7 +74,8 @@ PetscErrorCode newly_check(const Contact *contact, char why[], size_t length)
                             "converged, but nodes of %s that this step newly covers act without friction in it, and carry %.2g %% of its "
                             "pressure: take shorter steps%s",
                             interface->name, (double)(100 * sums[1] / sums[0]),
-                            interface->skin ? "" : ", or as nonmortar the side that stays covered (swap `nonmortar` and `mortar`)"));
+                            interface->skin ? "; at an edge whose faces touch different bodies name pairs in `interfaces`"
+                                            : ", or as nonmortar the side that stays covered (swap `nonmortar` and `mortar`)"));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

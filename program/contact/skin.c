@@ -229,6 +229,16 @@ PetscErrorCode skin_facets_destroy(SkinFacets *facets)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* In this run and in those that it goes on from. */
+void skin_counts(const ContactPart *part, int64_t counts[SKIN_COUNTS])
+{
+  stickslip_skin_summary found = {.struct_size = sizeof(found)};
+  PetscCallAbort(PETSC_COMM_SELF, stickslip_skin_report(part->skin->handle, &found) ? PETSC_ERR_LIB : PETSC_SUCCESS);
+  counts[0] = part->skin->before[0] + found.made;
+  counts[1] = part->skin->before[1] + found.exchanged;
+  counts[2] = part->skin->before[2] + found.missed;
+}
+
 /* Of each node a corner of the facet opposite of the nearest of its facets. */
 PetscErrorCode skin_look(ContactPart *part)
 {

@@ -7,6 +7,9 @@
 /* Where the library cuts a skin, in degrees: at 0.7 radians. */
 #define SKIN_CREASE (0.7 * 180 / PETSC_PI)
 
+/* How many numbers a run counts: interfaces made, facets that have exchanged their sides, steps solved again. */
+enum { SKIN_COUNTS = 3 };
+
 /* Two bodies, or one twice: their coefficient of friction, or STICKSLIP_SKIN_APART. */
 typedef struct {
   PetscInt  bodies[2];
@@ -35,6 +38,7 @@ struct SkinPart {
   PetscInt       *opposite;         /* of each node of the part: one that lies opposite in this step; -1: none */
   int64_t         missed;           /* steps refused since facets met out of reach, that have been noticed */
   PetscBool       exchanged;        /* its sides, in this step */
+  int64_t         before[SKIN_COUNTS]; /* what skin_counts() tells of the runs that this one goes on from */
 };
 
 /* Who may touch whom in this step, facet by facet of the part. */
@@ -64,6 +68,7 @@ PetscErrorCode skin_part_create(const Contact *contact, Interface *interface, in
 PetscErrorCode skin_part_destroy(ContactPart *part);
 void           skin_point(ContactPart *part); /* the library's arrays from the part's, at the place of now */
 void           skin_to_part(const ContactPart *part, PetscInt width, const double copies[], double nodes[]);
+void           skin_counts(const ContactPart *part, int64_t counts[SKIN_COUNTS]);
 PetscErrorCode skin_look(ContactPart *part); /* what lies opposite of each node */
 PetscErrorCode skin_facets(const ContactPart *part, SkinFacets *facets);
 PetscErrorCode skin_facets_destroy(SkinFacets *facets);

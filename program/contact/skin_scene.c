@@ -108,8 +108,6 @@ PetscErrorCode skin_read(Scene *scene, const Contact *contact, Interface *interf
   PetscFunctionBegin;
   if (contact->condensed)
     scene_fail(scene, NULL, "unknowns", "general contact has its multipliers among the unknowns: take `unknowns: multipliers`.");
-  if (contact->physics->dynamics)
-    scene_fail(scene, NULL, "contact", "general contact has no dynamics in this program: name pairs in `interfaces`.");
   PetscCall(PetscNew(&interface->skin));
   PetscCall(PetscSNPrintf(interface->name, sizeof(interface->name), "%s", NAME));
   PetscCall(read_friction(scene, contact->mesh, interface));

@@ -194,24 +194,37 @@ int32_t verb_rollback(ContactPart *part)
   return status;
 }
 
+/* Of a skin the run's counts come first, which the library has since creation only. */
 int32_t verb_history_size(const ContactPart *part, int64_t n[2])
 {
+  int32_t status;
   if (part->handle) return stickslip_interface_history_size(part->handle, &n[0], &n[1]);
-  return part->skin ? stickslip_skin_history_size(part->skin->handle, &n[0], &n[1]) : STICKSLIP_OK;
+  if (!part->skin) return STICKSLIP_OK;
+  status = stickslip_skin_history_size(part->skin->handle, &n[0], &n[1]);
+  n[0] += SKIN_COUNTS;
+  return status;
 }
 
 int32_t verb_history_export(const ContactPart *part, const int64_t n[2], int64_t integers[], double reals[])
 {
   if (part->handle) return stickslip_interface_history_export(part->handle, n[0], integers, n[1], reals);
-  return part->skin ? stickslip_skin_history_export(part->skin->handle, n[0], integers, n[1], reals) : STICKSLIP_OK;
+  if (!part->skin) return STICKSLIP_OK;
+  skin_counts(part, integers);
+  return stickslip_skin_history_export(part->skin->handle, n[0] - SKIN_COUNTS, integers + SKIN_COUNTS, n[1], reals);
 }
 
 int32_t verb_history_import(ContactPart *part, const int64_t n[2], const int64_t integers[], const double reals[])
 {
-  int32_t status;
+  const int64_t own = n[0] - SKIN_COUNTS;
+  int64_t       counts[SKIN_COUNTS];
+  int32_t       status;
   if (part->handle) return stickslip_interface_history_import(part->handle, n[0], integers, n[1], reals);
   if (!part->skin) return STICKSLIP_OK;
-  status = stickslip_skin_history_import(part->skin->handle, n[0], integers, n[1], reals);
-  if (!status) PetscCallAbort(PETSC_COMM_SELF, skin_look(part));
+  status = stickslip_skin_history_import(part->skin->handle, PetscMax(own, 0), integers + n[0] - PetscMax(own, 0), n[1], reals);
+  if (status) return status;
+  skin_counts(part, counts);
+  for (int k = 0; k < SKIN_COUNTS; k++)
+    part->skin->before[k] += integers[k] - counts[k];
+  PetscCallAbort(PETSC_COMM_SELF, skin_look(part));
   return status;
 }

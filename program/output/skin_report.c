@@ -168,7 +168,7 @@ static void tell_bodies(const Mesh *mesh, const PetscReal force[], const PetscBo
   }
 }
 
-static void tell_left_out(const Mesh *mesh, const Skin *skin, const stickslip_skin_summary *found, cJSON *sentences)
+static void tell_left_out(const Mesh *mesh, const Skin *skin, const stickslip_skin_summary *found, const int64_t counts[], cJSON *sentences)
 {
   if (skin->n_left)
     say(sentences, "%d facet%s in planes of symmetry %s left out.", (int)skin->n_left, plural(skin->n_left), skin->n_left == 1 ? "is" : "are");
@@ -181,10 +181,8 @@ static void tell_left_out(const Mesh *mesh, const Skin *skin, const stickslip_sk
   if (found->contradictions)
     say(sentences, "%d pair%s of facets could not be put on different sides, and cannot touch.", (int)found->contradictions,
         plural(found->contradictions));
-  if (found->exchanged)
-    say(sentences, "Facets in contact have exchanged their sides %d time%s.", (int)found->exchanged, plural(found->exchanged));
-  if (found->missed)
-    say(sentences, "Facets have met out of reach, and the step was solved again, %d time%s.", (int)found->missed, plural(found->missed));
+  if (counts[1]) say(sentences, "Facets in contact have exchanged their sides %d time%s.", (int)counts[1], plural(counts[1]));
+  if (counts[2]) say(sentences, "Facets have met out of reach, and the step was solved again, %d time%s.", (int)counts[2], plural(counts[2]));
 }
 
 /* By the rank that has the skin. */
@@ -195,17 +193,19 @@ static PetscErrorCode report(const Mesh *mesh, const Interface *interface, const
   cJSON                 *sentences, *touching;
   PetscBool             *there, *met;
   SkinFacets             facets;
+  int64_t                counts[SKIN_COUNTS];
   PetscFunctionBegin;
   PetscCallStickslip(stickslip_skin_report(part->skin->handle, &found));
+  skin_counts(part, counts);
   PetscCall(skin_facets(part, &facets));
   PetscCall(PetscCalloc2(mesh->n_bodies, &there, mesh->n_bodies, &met));
   find_bodies(&facets, part->n_facets[0], there, met);
   cJSON_AddNumberToObject(root, "pieces", (double)found.pieces);
   cJSON_AddNumberToObject(root, "pairs", (double)found.pairs);
   cJSON_AddNumberToObject(root, "contradictions", (double)found.contradictions);
-  cJSON_AddNumberToObject(root, "made", (double)found.made);
-  cJSON_AddNumberToObject(root, "exchanged", (double)found.exchanged);
-  cJSON_AddNumberToObject(root, "missed", (double)found.missed);
+  cJSON_AddNumberToObject(root, "made", (double)counts[0]);
+  cJSON_AddNumberToObject(root, "exchanged", (double)counts[1]);
+  cJSON_AddNumberToObject(root, "missed", (double)counts[2]);
   cJSON_AddNumberToObject(root, "facets", part->n_facets[0]);
   cJSON_AddNumberToObject(root, "facets_left_out", interface->skin->n_left);
   touching  = cJSON_AddArrayToObject(root, "touching");
@@ -214,7 +214,7 @@ static PetscErrorCode report(const Mesh *mesh, const Interface *interface, const
       found.bodies == 1 ? "y" : "ies", (int)found.pairs, plural(found.pairs), (int)found.pieces, plural(found.pieces));
   PetscCall(tell_pairs(mesh, part, &facets, nodes, touching, sentences));
   tell_bodies(mesh, force, there, met, root, sentences);
-  tell_left_out(mesh, interface->skin, &found, sentences);
+  tell_left_out(mesh, interface->skin, &found, counts, sentences);
   PetscCall(PetscFree2(there, met));
   PetscCall(skin_facets_destroy(&facets));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -94,6 +94,23 @@ static void walk(Scene *scene, yaml_document_t *document, yaml_node_t *map, cons
   }
 }
 
+/* PETSc's table holds some hundreds of keys, and says no more than that there is no room. */
+static PetscErrorCode insert(Scene *scene, const char *file)
+{
+  PetscErrorCode full;
+  PetscFunctionBegin;
+  PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
+  full = PetscOptionsInsertFileYAML(PETSC_COMM_WORLD, NULL, file, PETSC_TRUE);
+  PetscCall(PetscPopErrorHandler());
+  if (full == PETSC_ERR_MEM)
+    scene_fail(scene, NULL, NULL,
+               "its %d keys are more than PETSc's table of options has room for. Bodies of one material can be one mesh: in a Gmsh file they "
+               "need not hang together.",
+               (int)scene->n_keys);
+  PetscCall(full);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode scene_open(const char *file, int argc, char **argv, Scene **out)
 {
   Scene          *scene;
@@ -120,7 +137,7 @@ PetscErrorCode scene_open(const char *file, int argc, char **argv, Scene **out)
   yaml_parser_delete(&parser);
   fclose(stream);
 
-  PetscCall(PetscOptionsInsertFileYAML(PETSC_COMM_WORLD, NULL, file, PETSC_TRUE));
+  PetscCall(insert(scene, file));
   PetscCall(PetscOptionsInsert(NULL, &argc, &argv, NULL)); /* again, so that the command line wins */
   *out = scene;
   PetscFunctionReturn(PETSC_SUCCESS);

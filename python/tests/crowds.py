@@ -132,29 +132,36 @@ def slit(X, cells, across, beyond, opening):
     return X, cells
 
 
-def notch(n=8):
+def notch(n=8, dimension=2):
     """A block with a V notch that closes from its root."""
-    s = Solids(slit(*block((-1, 0), (1, 1), (2 * n, n)), 0, lambda x: x[1] - 0.5, 0.1))
+    box = ((-1, 0), (1, 1), (2 * n, n)) if dimension == 2 else ((-1, 0, 0), (1, 1, 0.5), (2 * n, n, 3))
+    s = Solids(slit(*block(*box), 0, lambda x: x[1] - 0.5, 0.1))
     return Scene(s, notched(s), [0.25, 0.5, 0.75, 1.0])
 
 
-def half_notch(n=8):
+def half_notch(n=8, dimension=2):
     """The half of it that is beside the plane x = 0, and the facets of its flank."""
-    whole = notch(n).solids
+    whole = notch(n, dimension).solids
     right = whole.X[whole.cells].mean(axis=1)[:, 0] > 0
     used = np.unique(whole.cells[right])
     s = Solids((whole.X[used], np.searchsorted(used, whole.cells[right])))
     held = where(s, 0, lambda x: (np.abs(x[0]) < 1e-12) & (x[1] < 0.5 + 1e-9))
     flank = where(s, 0, lambda x: (x[0] < 0.1 * np.maximum(x[1] - 0.5, 0) + 1e-9) & (x[1] > 0.5 - 1e-9))
-    prescribe = notched(s)
-    return Scene(s, lambda t: [*prescribe(t), (held, (0.0, NAN))], [0.25, 0.5, 0.75, 1.0]), held, flank
+    prescribe, along = notched(s), only(s, 0)
+    return Scene(s, lambda t: [*prescribe(t), (held, along(0.0))], [0.25, 0.5, 0.75, 1.0]), held, flank
+
+
+def only(s, axis):
+    """What prescribes one component alone."""
+    return lambda value: np.where(np.arange(s.dimension) == axis, value, NAN)
 
 
 def notched(s):
-    """Its sides are pressed, and its lower edge glides."""
+    """Its sides are pressed, and its lower edge glides; in space so does one of its faces, and the other one bulges."""
     sides = [where(s, 0, lambda x, end=end: x[0] == end) for end in (-1, 1)]
-    bottom = where(s, 0, lambda x: x[1] == 0)
-    return lambda t: [(sides[0], (0.08 * t, NAN)), (sides[1], (-0.08 * t, NAN)), (bottom, (NAN, 0.0))]
+    rest = [(where(s, 0, lambda x, axis=axis: x[axis] == 0), only(s, axis)(0.0)) for axis in range(1, s.dimension)]
+    along = only(s, 0)
+    return lambda t: [(sides[0], along(0.08 * t)), (sides[1], along(-0.08 * t)), *rest]
 
 
 def slit_block():

@@ -59,13 +59,14 @@ def test_it_is_named_pairs_with_the_same_sides(make, arguments, mu):
     assert general.states[0].count(stickslip.State.GAP) < general.states[0].bearing.sum()
 
 
-@pytest.mark.parametrize("cells, options", [(8, {}), (9, {}), (8, {"basis": "standard"})])
-def test_a_notch_closes_from_its_root_as_its_half_on_a_rigid_plane(cells, options):
-    whole = run(crowds.notch(cells), **options)
-    scene, held, flank = crowds.half_notch(cells)
+@pytest.mark.parametrize("cells, dimension, options", [(8, 2, {}), (9, 2, {}), (8, 2, {"basis": "standard"}), (4, 3, {})])
+def test_a_notch_closes_from_its_root_as_its_half_on_a_rigid_plane(cells, dimension, options):
+    whole = run(crowds.notch(cells, dimension), **options)
+    scene, held, flank = crowds.half_notch(cells, dimension)
     s = scene.solids
     facets = s.skin()
-    plane = stickslip.Surface([(0.0, -0.5), (0.0, 2.0)], [[0, 1]])
+    corners = [(0.0, -0.5), (0.0, 2.0)] if dimension == 2 else [(0.0, -0.5, -1.0), (0.0, 2.0, -1.0), (0.0, 2.0, 2.0), (0.0, -0.5, 2.0)]
+    plane = stickslip.Surface(corners, [range(len(corners))])
     contact = stickslip.Contact(s.X).add(facets[np.isin(facets, flank).all(axis=1)], plane, held=s.dofs[held], modulus=1.0, **options)
     half = Run(s, contact, scene.prescribe).go(scene.times)
     # All is closed at the end, and flat; before, the projection along slanted normals is not that onto a plane.

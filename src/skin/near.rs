@@ -40,6 +40,13 @@ pub struct Near {
     pub under: bool,
 }
 
+impl Near {
+    /// The other one of its facets.
+    pub fn other(&self, f: usize) -> usize {
+        self.facets[usize::from(self.facets[0] == f)]
+    }
+}
+
 /// How far a skin looks for partners.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reach {

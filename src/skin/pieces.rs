@@ -36,13 +36,11 @@ pub fn pieces(whole: &Whole, roles: &[Role], near: &[Near]) -> Result<Vec<Wanted
     for a in 0..whole.copies() {
         let mut own = whole.around.of(a).iter().copied().filter(|&f| roles[f] == Role::Nonmortar);
         if let Some(first) = own.next() {
-            for f in own {
-                let [f, first] = [root(&mut parent, f), root(&mut parent, first)];
-                parent[f.max(first)] = f.min(first);
-            }
+            own.for_each(|f| unite(&mut parent, f, first));
         }
     }
     let partners = Lists::around(n, near.len(), |p| &near[p].facets)?;
+    join_edges(whole, roles, near, &partners, &mut parent);
     let own: Vec<_> = (0..n).filter(|&f| roles[f] == Role::Nonmortar).stored()?;
     let roots: Vec<_> = own.iter().map(|&f| root(&mut parent, f)).stored()?;
     let order = memory::order(own.len(), &|i, j| roots[i].cmp(&roots[j]))?;
@@ -54,10 +52,9 @@ pub fn pieces(whole: &Whole, roles: &[Role], near: &[Near]) -> Result<Vec<Wanted
         let mut met = Vec::new();
         for &f in &own {
             for &p in partners.of(f) {
-                let Near { facets: [first, other], under, .. } = near[p];
-                let g = if first == f { other } else { first };
+                let g = near[p].other(f);
                 // What lies under another face is no room to slide in.
-                if !under && roles[g] == Role::Mortar && marks.is_new(g) {
+                if !near[p].under && roles[g] == Role::Mortar && marks.is_new(g) {
                     met.store(g)?;
                 }
             }
@@ -76,6 +73,28 @@ pub fn pieces(whole: &Whole, roles: &[Role], near: &[Near]) -> Result<Vec<Wanted
         pieces.store(Wanted { piece: Piece { own, ring, mortar }, partners: met })?;
     }
     Ok(pieces)
+}
+
+/// Joins faces that meet at an edge and may touch the same facet: the edge is one there, and has one condition, not one a face.
+fn join_edges(whole: &Whole, roles: &[Role], near: &[Near], partners: &Lists<usize>, parent: &mut [usize]) {
+    let nodes = |f: usize| whole.surface.host_nodes(f).iter().map(|&a| whole.originals[a]);
+    let may = |f: usize, p: &Near| roles[f] == Role::Nonmortar && !p.under;
+    for g in 0..roles.len() {
+        let touch = partners.of(g);
+        for (k, &p) in touch.iter().enumerate() {
+            for &q in &touch[..k] {
+                let [f, other] = [p, q].map(|p| near[p].other(g));
+                if may(f, &near[p]) && may(other, &near[q]) && nodes(other).any(|a| nodes(f).any(|b| a == b)) {
+                    unite(parent, f, other);
+                }
+            }
+        }
+    }
+}
+
+fn unite(parent: &mut [usize], f: usize, other: usize) {
+    let [f, other] = [root(parent, f), root(parent, other)];
+    parent[f.max(other)] = f.min(other);
 }
 
 /// Which facets a list has already.

@@ -22,7 +22,7 @@ enum Next {
 struct Following {
     start: Start,
     next: Vec<Next>,
-    /// Multipliers that copies take over from the other side, in the order of the copies.
+    /// Multipliers that copies take over from the other side; no copy is in two pieces.
     taken: Vec<(usize, Vec3)>,
 }
 
@@ -249,7 +249,6 @@ impl Skin {
             contact.set_committed(&room.x[0], &room.x[1], &slip, start.commits)?;
             next.store(Next::Made(made))?;
         }
-        let taken = memory::sorted(&taken, |p, q| p.0.cmp(&q.0))?;
         Ok(Following { start: Start { sides, ..start }, next, taken })
     }
 

@@ -48,7 +48,12 @@ PYRAMID = one_cell(7, [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.5, 0.5, 1)
 PRISM_2 = one_cell(18, [(k, k * k, k**3) for k in range(15)])
 TET_3 = one_cell(29, [(k, k * k, k**3) for k in range(20)])
 
+# As many bodies as PETSc's table of options has no room for.
+CROWD = [f"body{k}" for k in range(120)]
+
 BAD_SCENES = [
+    BadScene("more_keys_than_there_is_room_for", "bodies: [block, floor]", f"bodies: [block, floor, {', '.join(CROWD)}]\n" + "".join(
+        f"{name}: {{type: box, lower: [0, 0, 9], upper: [1, 1, 10], cells: [1, 1, 1], young: 1}}\n" for name in CROWD), ".yaml", says="can be one mesh"),
     BadScene("misspelt_key", "friction: 0.5", "frictoin: 0.5", "base.frictoin"),
     BadScene("missing_key", "young: 1000, poisson: 0.3, small", "poisson: 0.3, small", "block.young"),
     BadScene("misspelt_key_that_must_be", "young: 1000, poisson: 0.3, small", "youngs: 1000, poisson: 0.3, small", "block.young", says="'youngs' (line"),

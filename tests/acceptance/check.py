@@ -21,6 +21,8 @@ from exact import exact, exact_friction, exact_gears, exact_rolling  # noqa: E40
 from fluid import fluid  # noqa: E402
 from friction_checks import friction  # noqa: E402
 from general import general  # noqa: E402
+from general_cells import general_cells  # noqa: E402
+from general_dynamics import general_dynamics  # noqa: E402
 from general_scenes import general_scenes  # noqa: E402
 from hosts import hosts  # noqa: E402
 from iterative import iterative, iterative_scenes  # noqa: E402
@@ -82,6 +84,8 @@ GROUPS = {
     "fluid": fluid,
     "friction": friction,
     "general": general,
+    "general_cells": general_cells,
+    "general_dynamics": general_dynamics,
     "general_scenes": general_scenes,  # some minutes; not among the tests
     "hosts": hosts,
     "iterative": iterative,

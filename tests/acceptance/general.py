@@ -276,7 +276,7 @@ def shallow(cases):
 def several_ranks(cases):
     """One rank has the skin; the bodies are on all."""
     for label, scene in (("stack", corner("hex", friction=0.3, output=NONE)), ("three_blocks", shipped("three_blocks", output=NONE))):
-        compare(cases.verdicts, cases.driver, write(scene, cases.folder / f"ranks_{label}.yaml"), "", (), (2, 3))
+        compare(cases.verdicts, cases.driver, write(scene, cases.folder / f"ranks_{label}.yaml"), "", (), (2, 3, 5))
 
 
 # A scene of heat that would pass between the bodies.
@@ -293,7 +293,9 @@ def refused(cases):
         ("friction of what is no pair", falling(friction={"block.bas": 0.3}), "block.bas", {}),
         ("tied", falling(all={"law": "tied"}), "an interface of its own", {}),
         ("displacements alone", falling(unknowns="displacements"), "multipliers among the unknowns", {}),
-        ("dynamics", falling(dynamics={"rho_inf": 1}), "dynamics", {}),
+        ("points", falling(all={"decision": "points"}), "all.decision", {}),
+        ("a law with memory", falling(friction=0.3, all={"critical_slip": 0.1}), "all.critical_slip", {}),
+        ("an offset", falling(all={"offset": 0.1}), "all.offset", {}),
         ("a key of sides", falling(all={"nonmortar": "block.ymin"}), "nonmortar", {}),
         ("heat", {**falling(), **WARM}, "no heat passes", {}),
     ):

@@ -64,6 +64,21 @@ fn a_body_sees_itself() {
     assert_eq!((own, other), ([0, 7], [0, 7]), "each flank has one side");
 }
 
+/// Both faces at an edge that touch the same facet are one interface, which knows that the edge is one; those in a corner touch different ones.
+#[test]
+fn an_edge_on_one_facet_is_one_interface_and_one_in_a_corner_two() {
+    let reach = |mesh: &Mesh| skin(mesh, stickslip::interface::Options { search_distance: Some(0.5), ..options(0.3) });
+    let diamond = outline(&[[0.1, 0.01], [0.5, 0.41], [0.1, 0.81], [-0.3, 0.41]], 1);
+    let on_plate = together(&[outline(&[[-2.0, -1.0], [2.0, -1.0], [2.0, 0.0], [-2.0, 0.0]], 3), diamond]);
+    let one = reach(&on_plate);
+    assert_eq!((count(&one, &on_plate.x, Role::Nonmortar, |c| c.y > 0.1), one.pieces()), (2, 1));
+    let block = outline(&[[0.01, 0.01], [1.0, 0.01], [1.0, 1.0], [0.01, 1.0]], 2);
+    let walls = outline(&[[-1.0, -1.0], [3.0, -1.0], [3.0, 0.0], [0.0, 0.0], [0.0, 3.0], [-1.0, 3.0]], 3);
+    let in_corner = together(&[walls, block]);
+    let two = reach(&in_corner);
+    assert_eq!((count(&two, &in_corner.x, Role::Nonmortar, |c| c.x > 0.0 && c.y > 0.0), two.pieces()), (4, 2));
+}
+
 /// Bodies that are not to see each other do not, and the others still do.
 #[test]
 fn a_pair_of_bodies_can_be_left_out() {
