@@ -15,8 +15,8 @@ CLOSED = 0.01
 COARSE = 0.03
 # Of Newton's method a step, in the mean over the scenes.
 ITERATIONS = 3.5
-# What spread masses leave of what a hop takes, in steps of a quarter of h / c, and what is left of the energy of the drop per hop.
-LAYER, HOPS = 0.2, 20
+# What spread masses leave of what a hop takes, in steps of a quarter of h / c; so many hops, which it has made by the time END.
+LAYER, HOPS, END = 0.2, 20, 5.0
 # The wave speed of the ball, sqrt(E / rho).
 SPEED = math.sqrt(2e4)
 
@@ -92,7 +92,7 @@ def hop(verdicts, driver):
         taken = {}
         step = 0.25 / n / SPEED
         for spread in (False, True):
-            result = run(driver, "hops", hops(n, spread, round(3.5 / step), 3.5), label=f"hops_{n}_{spread}")
+            result = run(driver, "hops", hops(n, spread, round(END / step), END), label=f"hops_{n}_{spread}")
             table = energy(result)
             pressed = np.abs([step["interfaces"]["c"]["force"][2] for step in result.steps]) > 0
             hopped = np.count_nonzero(np.diff(np.flatnonzero(pressed)) * step > 0.02)
