@@ -169,7 +169,7 @@ def disc_brake(steps=60, end=1.5):
 CAPSTAN = {"friction": 0.3, "tension": 1.0, "moment": 3.0, "inertia": 0.7, "spin": 1.0}
 
 
-def capstan(steps=300, end=1.5, cells=90, facets=360):
+def capstan(steps=300, end=1.5, cells=45, facets=180):
     """A thin belt half around a rigid drum that a moment spins up below it: drawn by CAPSTAN's tension at one end, held at the other."""
     thin = 0.005
     return scene(
