@@ -184,7 +184,10 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
   PetscCall(settle_loose(&model->solve, &run->past)); /* what is warm turns, too */
   PetscCall(heat_begin(&model->heat, t));
   PetscCall(fluid_begin(&model->physics));
-  if (model->physics.dynamics) PetscCall(dynamics_begin(&model->physics));
+  if (model->physics.dynamics) {
+    PetscCall(dynamics_begin(&model->physics));
+    PetscCall(contact_reset_augmentation(&model->contact));
+  }
   PetscCall(solve_determined(model, run, done));
   PetscCall(solve_on(model, run, done));
   if (*done) PetscCall(timed_catch(&model->physics));

@@ -5,7 +5,7 @@
  * body. What is wholly prescribed is rigid. */
 static PetscErrorCode find_young(const Contact *contact, Interface *interface)
 {
-  PetscReal young = PETSC_MAX_REAL, stiffest[2] = {0, 0};
+  PetscReal least[2] = {PETSC_MAX_REAL, PETSC_MAX_REAL}, stiffest[2] = {0, 0};
   PetscFunctionBegin;
   for (PetscInt k = 0; k < interface->n1 + interface->n2; k++) {
     const PetscInt  body     = mesh_body_of(contact->mesh, interface->nodes[k]);
@@ -13,12 +13,14 @@ static PetscErrorCode find_young(const Contact *contact, Interface *interface)
     PetscReal      *side     = &stiffest[k >= interface->n1];
     if (contact->mesh->bodies[body].rigid) *side = PETSC_MAX_REAL;
     if (interface->prescribed[k] == 7 || contact->mesh->bodies[body].rigid) continue;
-    young = PetscMin(young, material->young);
+    least[0] = PetscMin(least[0], material->young);
+    least[1] = PetscMin(least[1], material->density);
     *side = PetscMax(*side, material_confined(material));
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &young, 1, MPIU_REAL, MPIU_MIN, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, least, 2, MPIU_REAL, MPIU_MIN, PETSC_COMM_WORLD));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, stiffest, 2, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
-  interface->young = young == PETSC_MAX_REAL ? contact->physics->materials[0].young : young; /* nothing moves */
+  interface->young   = least[0] == PETSC_MAX_REAL ? contact->physics->materials[0].young : least[0]; /* nothing moves */
+  interface->density = least[1] == PETSC_MAX_REAL ? 0 : least[1];
   for (int side = 0; side < 2; side++)
     stiffest[side] = stiffest[side] > 0 ? stiffest[side] : PETSC_MAX_REAL;
   interface->confined = PetscMin(stiffest[0], stiffest[1]);

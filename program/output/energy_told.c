@@ -78,6 +78,13 @@ static PetscErrorCode tell_first(const Output *output, PetscBool *told)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A loss is compared with the most that the bodies had: while they still get more, as at first what starts from rest does, it is not known what that is. */
+static PetscBool waits(const Physics *physics, int kind)
+{
+  const Dynamics *dynamics = physics->dynamics;
+  return (PetscBool)(kind == ENERGY_IMPACT && dynamics->now.largest > dynamics->last.largest && physics->t < physics->end);
+}
+
 /* The step is accepted. */
 PetscErrorCode energy_tell(const Output *output)
 {
@@ -91,7 +98,7 @@ PetscErrorCode energy_tell(const Output *output)
   PetscCall(tell_first(output, &first));
   for (int k = 0; k < N_ENERGIES; k++) {
     EnergyTold *told = &dynamics->energies[k];
-    if (told->t > 0 || values[k] <= TOLD * now->largest) continue;
+    if (told->t > 0 || values[k] <= TOLD * now->largest || waits(output->physics, k)) continue;
     *told = (EnergyTold){.t = output->physics->t, .part = values[k] / now->largest};
     if (k != ENERGY_CONTACT || !first) PetscCall(tell(output, k, WHAT[k], told->part));
   }

@@ -12,6 +12,9 @@ from pathlib import Path
 sys.path.append(str(Path(__file__).resolve().parents[2] / "studies" / "common"))
 import acceptance  # noqa: E402
 from condensed import condensed, condensed_full  # noqa: E402
+from conserving import conserving  # noqa: E402
+from conserving_free import conserving_free  # noqa: E402
+from conserving_turning import conserving_turning  # noqa: E402
 from dual import dual, dual_full, dual_iterations  # noqa: E402
 from dynamics import dynamics  # noqa: E402
 from dynamics_finite import finite  # noqa: E402
@@ -73,6 +76,9 @@ GROUPS = {
     **acceptance.GROUPS,
     "condensed": condensed,
     "condensed_full": condensed_full,  # minutes; not among the tests
+    "conserving": conserving,  # minutes
+    "conserving_free": conserving_free,
+    "conserving_turning": conserving_turning,  # minutes
     "dual": dual,
     "dual_full": dual_full,  # minutes; not among the tests
     "dual_iterations": dual_iterations,  # a quarter of an hour; not among the tests
