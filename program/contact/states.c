@@ -2,8 +2,8 @@
 #include "contact/contact.h"
 #include "physics/dynamics.h"
 
-/* The library's r over E / h; and what inertia makes of it, over rho h / dt^2 of a layer that stops within a step, beside its stiffness E / (2 h): with it
- * a rigid ball that spins on a slab takes 4 iterations a step for 11, with less more, and with more blocks that meet take more. */
+/* The library's r over E / h; and what inertia adds to it, over rho h / dt^2 of a layer of the mesh: by this a rigid ball that spins on a slab takes
+ * 4 iterations a step for 11, with less more, and with more blocks that meet take more. */
 static const PetscReal LAYER = 0.9, STOPS = 8;
 
 PetscErrorCode contact_results(const ContactPart *part, double results[])
@@ -194,8 +194,8 @@ PetscErrorCode contact_scale_augmentation(Contact *contact, const PetscBool *mar
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What a layer of the mesh, h, is stiffer by in a step than at rest, over (E / h)^-1: by r Newton's method finds the states of nodes that rub. With the masses
- * spread nodes have none. */
+/* What inertia adds to r, times r, whose h it is: a layer is stiffer in a step than at rest, and by r Newton's method finds the states of nodes that
+ * rub. With the masses spread nodes have none. */
 static PetscReal inertia(const Contact *contact, const Interface *interface)
 {
   const Dynamics *dynamics = contact->physics->dynamics;

@@ -78,7 +78,8 @@ static PetscErrorCode tell_first(const Output *output, PetscBool *told)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A loss is compared with the most that the bodies had: while they still get more, as at first what starts from rest does, it is not known what that is. */
+/* A loss is compared with the most that the bodies had: while they still get more, as at first what starts from rest does, it is not known what that
+ * is. */
 static PetscBool waits(const Physics *physics, int kind)
 {
   const Dynamics *dynamics = physics->dynamics;
