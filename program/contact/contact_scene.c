@@ -20,7 +20,8 @@ static PetscErrorCode find_young(const Contact *contact, Interface *interface)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, least, 2, MPIU_REAL, MPIU_MIN, PETSC_COMM_WORLD));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, stiffest, 2, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
   interface->young   = least[0] == PETSC_MAX_REAL ? contact->physics->materials[0].young : least[0]; /* nothing moves */
-  interface->density = least[1] == PETSC_MAX_REAL ? 0 : least[1];
+  /* of a layer that lies against a rigid body */
+  interface->density = PetscMax(stiffest[0], stiffest[1]) < PETSC_MAX_REAL || least[1] == PETSC_MAX_REAL ? 0 : least[1];
   for (int side = 0; side < 2; side++)
     stiffest[side] = stiffest[side] > 0 ? stiffest[side] : PETSC_MAX_REAL;
   interface->confined = PetscMin(stiffest[0], stiffest[1]);

@@ -80,7 +80,7 @@ struct Interface {
   ContactPart    part;
   Halo           halo;
   double         friction_work;           /* of all ranks, up to the last converged step */
-  double         young, density, largest_traction; /* of the softer body, of the lighter one; up to the last converged step */
+  double         young, density, largest_traction; /* of the softer body; of the lighter one against a rigid one, else 0; up to the last converged step */
   double         confined;                /* modulus of the softer side where it cannot widen; PETSC_MAX_REAL: both are rigid */
   PetscReal      between[4];              /* forces on the nodes that this rank counts: their sum, and that of their sizes */
   char           modulus_from[64];        /* with decisions at points: what the modulus of both bodies is made of */

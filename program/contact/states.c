@@ -2,8 +2,8 @@
 #include "contact/contact.h"
 #include "physics/dynamics.h"
 
-/* The library's r over E / h; and what inertia adds to it, over rho h / dt^2 of a layer of the mesh: by this a rigid ball that spins on a slab takes
- * 4 iterations a step for 11, with less more, and with more blocks that meet take more. */
+/* The library's r over E / h; and what inertia adds to it against a rigid body, over rho h / dt^2 of a layer of the mesh: by this a rigid ball
+ * that spins on a slab takes 4 iterations a step for 11. Blocks that meet and rub would take more by it. */
 static const PetscReal LAYER = 0.9, STOPS = 8;
 
 PetscErrorCode contact_results(const ContactPart *part, double results[])
