@@ -27,7 +27,7 @@ help:
 	@echo "make study   what accuracy costs in time, ten to thirty minutes, resumed; QUICK=1: a check; FIGURES=1: as above"
 	@echo "make border  the border of a contact, decided at nodes or at points: tables and a figure, ten minutes (FIGURES=1: as above)"
 	@echo "make exact   tests with exact answers, coarse to fine: tables and a figure, half an hour, resumed; ONLY='NAME ...': some (FIGURES=1: as above)"
-	@echo "make compare the same problems in other programs, those that are installed (FIGURES=1: renew the table)"
+	@echo "make compare the same problems in other programs, those that are installed; ONLY='NAME ...': some (FIGURES=1: as above)"
 	@echo "make bench   what the kernels cost, over a C++ baseline and in instructions (FIGURES=1: renew its table)"
 	@echo "make stability  hard cases x severity, each compared with an answer: build/stability/index.html; can be resumed;"
 	@echo "             QUICK=1: the part that is among the tests; ONLY='FILE ...' of tests/stability/cases; BASIS=dual;"
@@ -148,7 +148,7 @@ compare:
 	@.ci/setup compare
 	@$(MAKE) --no-print-directory cmake-build
 	$(SAY) "The same problems in other programs"
-	@$(PYTHON) studies/peers/compare.py --build $(BUILD) $(if $(FIGURES),--renew)
+	@$(PYTHON) studies/peers/compare.py --build $(BUILD) $(if $(ONLY),--only $(ONLY)) $(if $(FIGURES),--renew)
 
 bench:
 	@.ci/setup library

@@ -1,15 +1,17 @@
-"""The same problems in other programs, on the same meshes: `make compare`. compare.py --build DIR [--renew].
+"""The same problems in other programs, on the same meshes: `make compare`. compare.py --build DIR [--only NAME ...] [--renew].
 
 Errors are of nodal contact forces, which follow from each program's displacements by the same elements; on hexahedra of 20
 nodes, of the whole force. Hertz' line has ten loads, which move the border of the contact through a facet; its pressure is
 compared with Hertz' formula and with fine meshes (fine_line.py), of the theory that each program has and of the deformed
 bodies. A program that is not installed is left out with a word; one that finds no answer is shown with what it said. Seconds are wall time of
 each program's own solution, with whatever linear solver it brings, and include its start: for orders of magnitude.
-What has been run is kept. --renew: puts the tables into docs/other_programs.md.
+What has been run is kept. Tests with exact answers are those of exact_tests.py. --renew: puts the tables, those that were asked for,
+into docs/other_programs.md, and the figure, if all tests with exact answers were.
 """
 
 import argparse
 import re
+import shutil
 import sys
 from itertools import chain
 from pathlib import Path
@@ -17,8 +19,10 @@ from pathlib import Path
 import numpy as np
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
-import fine_line  # noqa: E402
 import folders  # noqa: E402  (puts the others on the path)
+import exact_tests  # noqa: E402
+import exact_tests_figure  # noqa: E402
+import fine_line  # noqa: E402
 import formulas  # noqa: E402
 import friction_checks as friction  # noqa: E402
 import half_plane  # noqa: E402
@@ -28,6 +32,7 @@ from documents import put_between  # noqa: E402
 from scene import Driver, Line, SceneError  # noqa: E402
 
 DOCUMENT = folders.ROOT / "docs" / "other_programs.md"
+LINE = "line"
 MARKS = ("<!-- compare -->", "<!-- /compare -->")
 # Over the half-width that the scene's own load has, and how far that one presses.
 FACETS, HALF_WIDTH, TRAVEL = (5, 10, 20), 0.68, 0.1828
@@ -278,36 +283,54 @@ def collected(rows):
     return body
 
 
-def compare(build, renew):
-    driver = Driver(build, build / "compare", keep=True)
-    driver.output.mkdir(parents=True, exist_ok=True)
-    missing = set()
+def line(driver, missing):
+    """Tables of the patch test and of Hertz' contact."""
     single = collected(chain(patch_rows(driver, missing), quadratic(driver, missing)))
     yardsticks = Yardsticks(driver.output)
     means = collected(hertz_rows(driver, missing, yardsticks))
-    for what in sorted(missing):
-        print(f"left out, not installed: {what}")
     tables = [(["problem", "program", "error", "Newton iterations", "seconds", "failure"], single),
               (["facets", "program", "error in per cent against Hertz' formula, mean (worst)",
                 "against a fine mesh of its own theory", "its theory", "against a fine mesh, deformed bodies",
                 "Newton iterations", "seconds", "failure"], means)]
     titles = "**One load**", f"**Hertz' line, {LOADS} loads that move the border through a facet**"
     text = "\n\n".join(f"{title}\n\n{study_page.markdown(table)}" for title, table in zip(titles, tables))
-    text += (f"\n\nFine meshes of {fine_line.FACETS // 2} and {fine_line.FACETS} facets over the half-width differ by "
-             f"{100 * yardsticks.apart:.2g} % at most.")
-    (driver.output / "compare.md").write_text(text + "\n")
-    if renew:
-        put_between(DOCUMENT, MARKS, f"\n\n{text}\n\n")
-    print((driver.output / "compare.md").resolve())
+    return text + (f"\n\nFine meshes of {fine_line.FACETS // 2} and {fine_line.FACETS} facets over the half-width differ by "
+                   f"{100 * yardsticks.apart:.2g} % at most.")
+
+
+def compare(build, only, renew):
+    driver = Driver(build, build / "compare", keep=True)
+    driver.output.mkdir(parents=True, exist_ok=True)
+    missing, drawn = set(), {}
+    for name in only:
+        if name == LINE:
+            text, marks = line(driver, missing), MARKS
+        else:
+            found, drawn[name] = exact_tests.table(driver, name, missing, said)
+            text, marks = study_page.markdown(found), tuple(f"<!-- {end}compare {name} -->" for end in ("", "/"))
+        file = driver.output / f"compare_{name}.md"
+        file.write_text(text + "\n")
+        print(file.resolve())
+        if renew:
+            put_between(DOCUMENT, marks, f"\n\n{text}\n\n")
+    if set(drawn) == set(exact_tests.TESTS):
+        path = exact_tests_figure.draw(drawn, driver.output / "other_programs.png")
+        print(path.resolve())
+        if renew:
+            shutil.copy(path, folders.FIGURES / path.name)
+    for what in sorted(missing):
+        print(f"left out, not installed: {what}")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=Path, required=True, help="CMake's build tree")
-    parser.add_argument("--renew", action="store_true", help="renew the table in docs/other_programs.md")
+    names = (LINE, *exact_tests.TESTS)
+    parser.add_argument("--only", nargs="+", choices=names, default=names, metavar="NAME", help=", ".join(names))
+    parser.add_argument("--renew", action="store_true", help="renew tables in docs/other_programs.md, and its figure")
     arguments = parser.parse_args()
     try:
-        compare(arguments.build, arguments.renew)
+        compare(arguments.build, arguments.only, arguments.renew)
     except SceneError as problem:
         print(f"\n{problem}", file=sys.stderr)
         return 1

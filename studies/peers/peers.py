@@ -41,6 +41,8 @@ class Case:
     loads: np.ndarray  # nodal forces
     nonmortar: np.ndarray  # (cell, face)
     mortar: np.ndarray
+    friction: float = 0.0
+    stress: float = 0.0  # the largest that is expected, for the softness that CalculiX' node-to-face contact has
 
 
 @dataclass
@@ -57,7 +59,7 @@ def kept(program, case, folder):
     file."""
     digest = hashlib.sha256(repr((case.young, case.poisson)).encode())
     arrays = [case.points, case.cells, case.bodies, case.loads, case.nonmortar, case.mortar]
-    for array in (*arrays, *(np.append(nodes, (c, value)) for nodes, c, value in case.fixed)):
+    for array in (*arrays, np.array([case.friction, case.stress]), *(np.append(nodes, (c, value)) for nodes, c, value in case.fixed)):
         digest.update(np.ascontiguousarray(array).tobytes())
     file, digest = folder / "kept.npz", digest.hexdigest()
     if file.is_file() and file.stat().st_mtime > Path(__file__).stat().st_mtime:
@@ -112,13 +114,21 @@ def internal_forces(case, displacement):
 
 
 # --- CalculiX ---------------------------------------------------------------------------------------------------------
-def calculix(case, folder, kind):
-    """`kind`: SURFACE TO SURFACE (penalty) or MORTAR (dual multipliers), which ends without a word on the patch test if
-    the corner node of the non-mortar side is supported in x and y: such a node gets the first of its supports only."""
+# Of the expected stress: what is left of a node's pressure far away; the manual's advice.
+LEFT = 0.0025
+
+
+def calculix(case, folder, kind, penalty=None):
+    """`kind`: NODE TO SURFACE, SURFACE TO SURFACE (both penalty) or MORTAR (dual multipliers), which ends without a word on the patch test if
+    the corner node of the non-mortar side is supported in x and y: such a node gets the first of its supports only. `penalty`: over the
+    modulus, in place of PENALTY; mortar contact is `hard` without."""
+    soft = kind != "MORTAR" or penalty
+    stiffness = (penalty or PENALTY) * case.young
     program = shutil.which("ccx")
     if not program:
         raise Missing("CalculiX (Debian: calculix-ccx)")
-    lines = ["*NODE, NSET=ALL", *(f"{k + 1}, {x:.15g}, {y:.15g}, {z:.15g}" for k, (x, y, z) in enumerate(case.points))]
+    # No more digits: it reads the first twenty characters of a number, and what an exponent loses there is a wrong node.
+    lines = ["*NODE, NSET=ALL", *(f"{k + 1}, {x:.12g}, {y:.12g}, {z:.12g}" for k, (x, y, z) in enumerate(case.points))]
     lines += [f"*ELEMENT, TYPE={CALCULIX_CELLS[case.cells.shape[1]]}, ELSET=BODY"]
     for k, cell in enumerate(case.cells):
         entries = [str(n + 1) for n in (k, *cell)]
@@ -127,18 +137,18 @@ def calculix(case, folder, kind):
     lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M"]
     for name, faces in (("SLAVE", case.nonmortar), ("MASTER", case.mortar)):
         lines += [f"*SURFACE, NAME={name}, TYPE=ELEMENT", *(f"{cell + 1}, S{face + 1}" for cell, face in faces)]
-    behaviour = "HARD" if kind == "MORTAR" else "LINEAR"
-    lines += ["*SURFACE INTERACTION, NAME=SI", f"*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE={behaviour}"]
-    lines += [] if kind == "MORTAR" else [f"{PENALTY * case.young}, 0."]
+    lines += ["*SURFACE INTERACTION, NAME=SI", f"*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE={'LINEAR' if soft else 'HARD'}"]
+    lines += [f"{stiffness:.12g}, {LEFT * case.stress if kind == 'NODE TO SURFACE' else 0:.12g}"] if soft else []
+    lines += ["*FRICTION", f"{case.friction}, {stiffness:.12g}"] if case.friction else []
     lines += [f"*CONTACT PAIR, INTERACTION=SI, TYPE={kind}", "SLAVE, MASTER", "*STEP, INC=100", "*STATIC", "1., 1."]
     lines += ["*BOUNDARY"]
     supports, single = {}, set(corners(case, case.nonmortar).flat) if kind == "MORTAR" else ()
     for n, c, value in [(n, c, value) for nodes, c, value in case.fixed for n in nodes]:
-        supports.setdefault(n if n in single else (n, c), f"{n + 1}, {c + 1}, {c + 1}, {value:.15g}")
+        supports.setdefault(n if n in single else (n, c), f"{n + 1}, {c + 1}, {c + 1}, {value:.12g}")
     lines += supports.values()
     if np.any(case.loads):
         lines += ["*CLOAD"]
-        lines += [f"{n + 1}, {c + 1}, {case.loads[n, c]:.15g}" for n, c in zip(*np.nonzero(case.loads))]
+        lines += [f"{n + 1}, {c + 1}, {case.loads[n, c]:.12g}" for n, c in zip(*np.nonzero(case.loads))]
     lines += ["*NODE PRINT, NSET=ALL, FREQUENCY=1000", "U, RF", "*END STEP", ""]
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "job.inp").write_text("\n".join(lines))
@@ -171,8 +181,42 @@ def last_table(text, name, nodes):
 
 
 # --- GetFEM -----------------------------------------------------------------------------------------------------------
-def getfem(case, folder):
-    """Nodes against faces, Alart and Curnier's augmented Lagrangian, small displacements. (Its integral contact between
+REGION = 7
+# Of the residual, in forces and in what multipliers miss over r, which is small in small facets; and of iterations, after which it says nothing.
+RESIDUAL, MOST = 1e-13, 100
+
+
+def by_nodes(gf, model, case, integrals, meshes):
+    """Nodes against faces."""
+    model.add_initialized_data("r", [case.young])
+    place = (np.array([REGION]), np.array([REGION]))
+    sides, names = ("u0", "u1", "pressure"), ("r",)
+    if case.friction:
+        model.add_initialized_data("mu", [case.friction])
+        sides, names = (*sides, "traction"), ("r", "mu")
+    model.add_nodal_contact_between_nonmatching_meshes_brick(*integrals, *sides, *names, *place)
+
+
+def by_integrals(augmentation):
+    """Contact is decided at Gauss points; multipliers of the displacements' functions. `augmentation`: over the modulus."""
+
+    def contact(gf, model, case, integrals, meshes):
+        multipliers = gf.MeshFem(meshes[0], 3 if case.friction else 1)
+        multipliers.set_fem(gf.Fem("FEM_QK(3,1)"))
+        fine = gf.MeshIm(meshes[0], gf.Integ("IM_GAUSS_PARALLELEPIPED(3,5)"))
+        model.add_filtered_fem_variable("traction", multipliers, REGION)
+        model.add_initialized_data("r", [augmentation * case.young])
+        if case.friction:
+            model.add_initialized_data("mu", [case.friction])
+        names = ("u0", "u1", "traction", "r", *(("mu",) if case.friction else ()))
+        model.add_integral_contact_between_nonmatching_meshes_brick(fine, *names, REGION, REGION)
+        return multipliers, fine  # the model does not keep them
+
+    return contact
+
+
+def getfem(case, folder, contact=by_nodes):
+    """Alart and Curnier's augmented Lagrangian, small displacements. (Its integral contact between
     meshes that do not match gives half the contact width on the cylinders, for a reason that was not found.)"""
     try:
         import getfem as gf
@@ -212,7 +256,7 @@ def getfem(case, folder):
         values = np.array(list(prescribed.values()))
         model.add_constraint_with_multipliers(f"u{body}", f"support{body}", constraints, values)
         model.add_explicit_rhs(f"u{body}", case.loads[numbers[-1]].ravel())
-    for body, faces, region in ((0, case.nonmortar, 7), (1, case.mortar, 7)):
+    for body, faces, region in ((0, case.nonmortar, REGION), (1, case.mortar, REGION)):
         mesh = meshes[body]
         own = np.flatnonzero(case.bodies == body)
         index = {cell: k for k, cell in enumerate(own)}
@@ -224,10 +268,10 @@ def getfem(case, folder):
                 if {tuple(np.round(x, 9)) for x in mesh.pts(pids).T} == wanted:
                     chosen.append((index[cell], local))
         mesh.set_region(region, np.array(chosen).T)
-    model.add_initialized_data("r", [case.young])
-    one, two = np.array([7]), np.array([7])
-    model.add_nodal_contact_between_nonmatching_meshes_brick(*integrals, "u0", "u1", "pressure", "r", one, two)
-    iterations, _ = model.solve("max_res", 1e-9, "max_iter", 100)
+    _alive = contact(gf, model, case, integrals, meshes)
+    iterations, _ = model.solve("max_res", RESIDUAL, "max_iter", MOST)
+    if iterations >= MOST:
+        raise RuntimeError(f"not converged in {MOST} iterations")
     seconds = time.monotonic() - start
     displacement = np.zeros_like(case.points)
     for body in (0, 1):
@@ -246,7 +290,7 @@ def kratos(case, folder):
     folder.mkdir(parents=True, exist_ok=True)
     fixed = np.array([(n, c, value) for nodes, c, value in case.fixed for n in nodes])
     np.savez(folder / "case.npz", points=case.points, cells=case.cells, young=case.young, poisson=case.poisson,
-             fixed=fixed, loads=case.loads, nonmortar=corners(case, case.nonmortar), mortar=corners(case, case.mortar))
+             fixed=fixed, loads=case.loads, friction=case.friction, nonmortar=corners(case, case.nonmortar), mortar=corners(case, case.mortar))
     (folder / "answer.npz").unlink(missing_ok=True)
     start = time.monotonic()
     done = subprocess.run([KRATOS, Path(__file__).with_name("kratos_job.py"), folder], capture_output=True, text=True,
