@@ -203,19 +203,20 @@ static PetscReal inertia(const Contact *contact, const Interface *interface)
   return STOPS * interface->density * interface->young * PetscSqr(LAYER / dynamics->dt);
 }
 
-/* Back to the scene's, of a step; so it begins. */
+/* Back to the scene's, of a step; so it begins. Where inertia adds to that of one interface, those of all are known to the parts, which take them
+ * along when they are made anew. */
 PetscErrorCode contact_reset_augmentation(Contact *contact)
 {
+  const PetscBool was_scaled = contact->scaled;
   PetscFunctionBegin;
   contact->scaled = PETSC_FALSE;
-  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    Interface      *interface = &contact->interfaces[i];
-    const PetscReal added     = inertia(contact, interface);
+  for (PetscInt i = 0; i < contact->n_interfaces; i++)
+    if (inertia(contact, &contact->interfaces[i]) > 0) contact->scaled = PETSC_TRUE;
+  for (PetscInt i = 0; (was_scaled || contact->scaled) && i < contact->n_interfaces; i++) {
+    const Interface *interface = &contact->interfaces[i];
     if (decision_is_points(interface)) continue;
     if (interface->part.handle) PetscCallStickslip(stickslip_interface_set_augmentation(interface->part.handle, NULL));
-    if (added == 0) continue;
-    PetscCall(scale_augmentation(interface, NULL, 1, added));
-    contact->scaled = PETSC_TRUE;
+    if (contact->scaled && !interface->skin) PetscCall(scale_augmentation(interface, NULL, 1, inertia(contact, interface)));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

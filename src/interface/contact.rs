@@ -223,8 +223,8 @@ impl<const N: usize> Contact<N> {
     }
 
     /// Where the multipliers of the nodes act, of a part of an interface. Facets of which no node acts here are left out, unless
-    /// nodes carry others, or points decide: who carries them, and what points know, follows from what is covered farther away. Before the first step: t_n becomes the
-    /// reference configuration.
+    /// nodes carry others, or points decide: who carries them, and what points know, follows from what is covered farther away. Before
+    /// the first step: t_n becomes the reference configuration.
     pub fn set_owners(&mut self, owners: Vec<Owner>) -> Result<()> {
         self.setup.refuse(&[
             (Feature::Elsewhere, owners.contains(&Owner::Elsewhere)),
